@@ -1,0 +1,31 @@
+#pragma once
+
+#include "sinew/LevelSet/LevelSet.h"
+#include "sinew/Segmentation/Segmentation.h"
+
+namespace sinew {
+
+struct LevelSetFromLabelsOptions {
+  double smoothingVoxels = 1;      ///< standard deviation of the Gauss, voxels; 0 keeps the voxels' stairs
+  double bandVoxels = 4;           ///< half width of the narrow band, level set voxels, >= 3
+  double thickSliceRatio = 1.8;    ///< largest over smallest spacing from which slices are interpolated by shape
+  double gridSpacing = 0;          ///< mm; 0: the smallest image spacing, but not below half a voxel (cube root)
+};
+
+/// What the conversion did to the tissue.
+struct LevelSetFromLabelsReport {
+  double isoValue = 0;             ///< value of the smoothed field that keeps the label's volume
+  bool shapeInterpolated = false;  ///< the slice-wise path was taken
+  double labelVolume = 0;          ///< voxels times voxel volume, mm^3
+  double levelSetVolume = 0;       ///< volume of phi < 0, mm^3
+};
+
+/// Turns the voxels of one tissue into a signed distance: crop with a margin, Gauss with the iso value that keeps the
+/// label's volume (or slice-wise 2-D distances and Catmull-Rom across thick slices), resampling to an isotropic grid,
+/// second-order narrow-band fast marching.
+/// @throws std::invalid_argument on options out of range or a tissue without voxels.
+/// Cost: O(box of the tissue) plus O(band log band).
+LevelSet levelSetFromLabels(const Segmentation& segmentation, const Tissue& tissue,
+                            const LevelSetFromLabelsOptions& options = {}, LevelSetFromLabelsReport* report = nullptr);
+
+}  // namespace sinew

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "sinew/Segmentation/LabelTable.h"
+#include "sinew/Segmentation/Segmentation.h"
+
+#include <filesystem>
+#include <optional>
+
+namespace sinew {
+
+struct ReadSegmentationOptions {
+  std::optional<std::filesystem::path> lut;  ///< colour table for names and colours; overrides the file's own
+};
+
+/// Reads a labelled volume: .nrrd, .nhdr, .seg.nrrd (one layer or several), .nii, .nii.gz, .mha, .mhd, of any
+/// integer pixel type, or floating point when every value is whole. Geometry is ITK's (LPS mm).
+/// A Slicer segmentation is recognised by its header, not by its name.
+/// @throws std::runtime_error: one line that names the file, what is wrong and what to do.
+Segmentation readSegmentation(const std::filesystem::path& file, const ReadSegmentationOptions& options = {});
+
+}  // namespace sinew
