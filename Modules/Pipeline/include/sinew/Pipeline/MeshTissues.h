@@ -4,50 +4,54 @@
 #include "sinew/Mesher/GenerateTetMesh.h"
 #include "sinew/Mesher/MeshConditions.h"
 #include "sinew/Mesher/MeshQuality.h"
+#include "sinew/Pipeline/Length.h"
 #include "sinew/Segmentation/Segmentation.h"
 
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sinew {
 
 struct MeshTissuesOptions {
-  double edgeLength = 0;                     ///< cube size at the surface, mm; 0: 2vox
-  double maxEdgeLength = 0;                  ///< cube size deep inside, mm; 0: eight times the edge length
-  std::map<std::string, double> sizes;       ///< tissue name -> edge length, mm
-  double curvature = 0.7;                    ///< see GenerateTetMeshOptions
-  int levels = 0;                            ///< see GenerateTetMeshOptions
-  LevelSetFromLabelsOptions levelSet;        ///< labels to distance
+  Length edgeLength = Length::voxels(2);  ///< cube size of the lattice at the surface, > 0
+  Length maxEdgeLength = 0;               ///< cube size deep inside; 0: eight times the edge length
+  std::map<std::string, Length> sizes;  ///< tissue, by a wish as in selectTissues -> its own edge length, > 0
+  double curvature = 0.7;               ///< see GenerateTetMeshOptions
+  int levels = 0;                       ///< see GenerateTetMeshOptions
+  LevelSetFromLabelsOptions levelSet;   ///< labels to distance
 };
 
 enum class TissueStatus { Meshed, Lost, Failed };
 
 struct Fidelity {
-  double maxBoundaryPhi = 0;     ///< largest |phi| at a boundary node, mm
-  double surfaceRms = 0;         ///< distance of boundary nodes, edge midpoints and centroids from phi = 0, mm
-  double surfaceMax = 0;         ///< mm
-  double volume = 0;             ///< of the mesh, mm^3
-  double labelVolume = 0;        ///< mm^3
-  double levelSetVolume = 0;     ///< mm^3
-  double dice = 0;               ///< of label voxels and voxels with their centre in the mesh
+  double maxBoundaryPhi = 0;  ///< largest |phi| at a boundary node, mm
+  double surfaceRms = 0;      ///< distance of boundary nodes, edge midpoints and centroids from phi = 0, mm
+  double surfaceMax = 0;      ///< mm
+  double volume = 0;          ///< of the mesh, mm^3
+  double labelVolume = 0;     ///< mm^3
+  double levelSetVolume = 0;  ///< mm^3
+  double dice = 0;            ///< of label voxels and voxels with their centre in the mesh
 };
 
-/// What the labels had and the mesh has not.
+/// What the labels had and the mesh has not: 26-connected pieces of which no voxel has its centre in the
+/// mesh.
 struct LostPieces {
   std::int64_t components = 0;
-  double volume = 0;             ///< mm^3
+  double volume = 0;  ///< mm^3
 };
 
 struct TissueReport {
   std::string name;
   std::int32_t label = 0;
   int layer = 0;
-  std::string file;              ///< name inside the output folder; empty when nothing was written
+  std::string file;  ///< name inside the output folder; empty when nothing was written
   TissueStatus status = TissueStatus::Failed;
-  std::string message;           ///< one line: why it was lost or failed, or a warning
+  std::string message;                                  ///< one line: why it was lost or failed, or a warning
+  double edgeLength = 0;                                ///< as resolved for this tissue, mm
   std::vector<std::pair<std::string, double>> seconds;  ///< stage -> wall seconds, in order
   MeshQuality quality;
   MeshConditions conditions;
@@ -58,15 +62,24 @@ struct TissueReport {
   LostPieces lost;
 };
 
-/// Called from any thread as tissues advance: name, stage, and the fraction of all work done so far, in [0, 1].
+/// Called from any thread, one call at a time, as tissues advance: name, stage, and the fraction of all work
+/// done so far, in [0, 1]. May throw to stop the run: the other tissues then stop at their next call, partial
+/// files are removed, and meshTissues throws the same exception.
 using TissueProgress = std::function<void(const std::string& tissue, const std::string& stage, double done)>;
 
-/// Meshes the tissues with the given indices into `segmentation.tissues`, one file `<name>.vtu` each in `folder`
-/// (which exists). Tissues run in parallel, the largest first; the memory in flight is bounded by the largest ones.
-/// A tissue that cannot be meshed is reported, the others are written. The files do not depend on the number of
-/// threads. Throws only what stops everything (a cancelled run, an unwritable folder).
+/// Meshes the tissues with the given indices into `segmentation.tissues`, one file each in `folder` (which
+/// exists), named by tissueFileStems with the ending `.vtu`; a file appears when it is complete, and an older
+/// one of that name goes when its tissue gives none. Tissues run in parallel, the largest first, as many at a
+/// time as threads and memory allow. A tissue that cannot be meshed, or whose mesh is unsound, is reported
+/// and not written; the others are. The files do not depend on the number of threads.
+/// @return one report per entry of `tissues`, in that order
+/// @throws std::invalid_argument before any computing on options out of range, a size for an unknown tissue,
+/// or edge
+///         lengths that take more memory than there is, naming the tissue and the need; otherwise only what
+///         `progress` throws.
 std::vector<TissueReport> meshTissues(const Segmentation& segmentation, const std::vector<int>& tissues,
-                                      const std::filesystem::path& folder, const MeshTissuesOptions& options = {},
+                                      const std::filesystem::path& folder,
+                                      const MeshTissuesOptions& options = {},
                                       const TissueProgress& progress = {});
 
 }  // namespace sinew

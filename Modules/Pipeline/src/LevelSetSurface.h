@@ -1,0 +1,69 @@
+#pragma once
+
+#include "sinew/LevelSet/LevelSet.h"
+#include "sinew/Mesher/SignedDistance.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace sinew {
+
+/// The door from OpenVDB to the Mesher: the trilinear interpolant of a level set and its exact gradient, in
+/// the level set's own frame: x = voxelSize * grid index, mm. `LevelSet::frame` leads from there to LPS.
+///
+/// The values are copied into bricks of 8^3 cells with the nodes on all their faces (9^3 values), one table
+/// entry per brick of the box, so that any sample costs one table entry and eight values of one brick; bricks
+/// outside of the narrow band share two constant ones. The grid is not needed afterwards.
+class LevelSetSurface final : public SignedDistance {
+ public:
+  /// Cost: O(bricks of the box + voxels of the band); memory 2.9 kB per brick of the band.
+  explicit LevelSetSurface(const LevelSet& levelSet);
+
+  double value(const Eigen::Vector3d& x) const override;
+  double valueAndGradient(const Eigen::Vector3d& x, Eigen::Vector3d& gradient) const override;
+  Eigen::AlignedBox3d bounds() const override { return bounds_; }
+  double resolution() const override { return voxelSize_; }
+  double band() const override { return band_; }
+
+ private:
+  friend class LevelSetTopologyCounter;
+
+  static constexpr int kLog2Cells = 3;
+  static constexpr int kCells = 1 << kLog2Cells;  ///< cells of a brick along an axis, as in a leaf of OpenVDB
+  static constexpr int kNodes = kCells + 1;
+  static constexpr int kStrideX = kNodes * kNodes;
+  static constexpr int kStrideY = kNodes;
+  static constexpr std::size_t kBrickSize = kNodes * kNodes * kNodes;
+  static constexpr std::uint32_t kInside = 0;   ///< brick of -band
+  static constexpr std::uint32_t kOutside = 1;  ///< brick of +band
+
+  struct Cell {
+    const float* lower;        ///< value at the lowest corner; nullptr outside of the box
+    Eigen::Vector3d fraction;  ///< position in the cell, [0, 1)
+  };
+  Cell cellAt(const Eigen::Vector3d& x) const;
+  const float* brick(const Eigen::Vector3i& position) const;
+  std::size_t entry(const Eigen::Vector3i& position) const;
+
+  double voxelSize_;
+  double inverseVoxelSize_;
+  double band_;
+  Eigen::AlignedBox3d bounds_;
+  Eigen::Vector3i origin_;            ///< grid index of the first brick's first node, a multiple of 8
+  Eigen::Vector3i count_;             ///< bricks along each axis
+  Eigen::Vector3d extent_;            ///< cells along each axis
+  std::vector<std::uint32_t> table_;  ///< brick of each place, z fastest
+  std::vector<float> values_;         ///< bricks, z fastest
+};
+
+/// Shape of phi < 0 as a space, from the signs at the grid nodes on Kuhn's subdivision of the grid into tets
+/// (which has no ambiguous cases).
+struct LevelSetTopology {
+  std::int64_t components = 0;
+  std::int64_t eulerCharacteristic = 0;  ///< V - E + F of the surface phi = 0; 2 per sphere, 0 per torus
+};
+/// Cost: O(voxels of the band).
+LevelSetTopology levelSetTopology(const LevelSetSurface& surface);
+
+}  // namespace sinew

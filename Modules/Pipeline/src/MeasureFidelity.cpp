@@ -1,0 +1,99 @@
+#include "MeasureFidelity.h"
+
+#include "VoxelMask.h"
+#include "sinew/Segmentation/LabelComponents.h"
+
+#include <cmath>
+
+namespace sinew {
+namespace {
+
+/// Largest value and root mean square of phi at a growing set of points.
+class Deviation {
+ public:
+  explicit Deviation(const SignedDistance& surface) : surface_(surface) {}
+  void add(const Eigen::Vector3d& x) {
+    const double phi = std::abs(surface_.value(x));
+    max_ = std::max(max_, phi);
+    squares_ += phi * phi;
+    ++points_;
+  }
+  double max() const { return max_; }
+  double rms() const { return points_ > 0 ? std::sqrt(squares_ / static_cast<double>(points_)) : 0; }
+
+ private:
+  const SignedDistance& surface_;
+  double max_ = 0, squares_ = 0;
+  std::int64_t points_ = 0;
+};
+
+void measureSurface(const TetMesh& mesh, const SignedDistance& surface, const Eigen::Isometry3d& frame,
+                    Fidelity& fidelity) {
+  const Eigen::Isometry3d toLocal = frame.inverse();
+  const std::vector<Triangle> triangles = boundaryTriangles(mesh);
+  std::vector<bool> onBoundary(mesh.nodes.size());
+  Deviation deviation(surface);
+  for (const Triangle& triangle : triangles)
+    for (const std::int32_t node : triangle) {
+      if (!onBoundary[node]) deviation.add(toLocal * mesh.nodes[node]);
+      onBoundary[node] = true;
+    }
+  fidelity.maxBoundaryPhi = deviation.max();
+  for (const Triangle& triangle : triangles) {
+    const Eigen::Vector3d corners[]{mesh.nodes[triangle[0]], mesh.nodes[triangle[1]],
+                                    mesh.nodes[triangle[2]]};
+    deviation.add(toLocal * ((corners[0] + corners[1] + corners[2]) / 3));
+    for (int e = 0; e < 3; ++e) {
+      const int next = (e + 1) % 3;
+      // Each edge belongs to two triangles, in opposite directions.
+      if (triangle[e] < triangle[next]) deviation.add(toLocal * ((corners[e] + corners[next]) / 2));
+    }
+  }
+  fidelity.surfaceRms = deviation.rms();
+  fidelity.surfaceMax = deviation.max();
+}
+
+double meshVolume(const TetMesh& mesh) {
+  double sixfold = 0;
+  for (const auto& [a, b, c, d] : mesh.tets) {
+    const Eigen::Vector3d& x = mesh.nodes[a];
+    sixfold += (mesh.nodes[b] - x).cross(mesh.nodes[c] - x).dot(mesh.nodes[d] - x);
+  }
+  return sixfold / 6;
+}
+
+}  // namespace
+
+FidelityReport measureFidelity(const TetMesh& mesh, const SignedDistance& surface,
+                               const Eigen::Isometry3d& frame, const LevelSetFromLabelsReport& volumes,
+                               const Segmentation& segmentation, const Tissue& tissue) {
+  FidelityReport report;
+  measureSurface(mesh, surface, frame, report.fidelity);
+  report.fidelity.volume = meshVolume(mesh);
+  report.fidelity.labelVolume = volumes.labelVolume;
+  report.fidelity.levelSetVolume = volumes.levelSetVolume;
+
+  const VoxelMask covered = voxelsInMesh(mesh, segmentation.geometry.indexToPhysical().inverse());
+  const LabelComponents pieces = labelComponents(segmentation, tissue);
+  std::vector<bool> kept(pieces.voxels.size());
+  std::int64_t shared = 0;
+  std::size_t voxel = 0;
+  for (int z = pieces.box.lower.z(); z < pieces.box.upper.z(); ++z)
+    for (int y = pieces.box.lower.y(); y < pieces.box.upper.y(); ++y)
+      for (int x = pieces.box.lower.x(); x < pieces.box.upper.x(); ++x) {
+        const std::int32_t piece = pieces.ids[voxel++];
+        if (piece < 0 || !covered.test({x, y, z})) continue;
+        kept[piece] = true;
+        ++shared;
+      }
+  const std::int64_t both = tissue.voxels + covered.count();
+  report.fidelity.dice = both > 0 ? 2. * static_cast<double>(shared) / static_cast<double>(both) : 0;
+  for (std::size_t piece = 0; piece < kept.size(); ++piece) {
+    if (kept[piece]) continue;
+    ++report.lost.components;
+    report.lost.volume += static_cast<double>(pieces.voxels[piece]) * segmentation.geometry.voxelVolume();
+  }
+  return report;
+}
+
+}  // namespace sinew

@@ -1,0 +1,203 @@
+#include "MeshOneTissue.h"
+
+#include "LevelSetSurface.h"
+#include "MeasureFidelity.h"
+#include "sinew/MeshIO/VtuFile.h"
+#include "sinew/Pipeline/Memory.h"
+#include "sinew/Pipeline/OutputFile.h"
+#include "sinew/Segmentation/LabelComponents.h"
+
+#include <chrono>
+#include <cstdio>
+#include <new>
+#include <numeric>
+#include <stdexcept>
+
+namespace sinew {
+namespace {
+
+/// Fractions of a tissue's work done at the end of each stage, for the progress bar.
+constexpr double kAfterLevelSet = 0.2, kAfterMesh = 0.9, kAfterMeasure = 0.97;
+
+class Stopwatch {
+ public:
+  /// Seconds since the last lap.
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    return std::chrono::duration<double>(now - std::exchange(start_, now)).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+std::string oneLine(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  for (char& c : text)
+    if (c == '\n' || c == '\r') c = ' ';
+  return text;
+}
+
+/// What is unsound about a mesh; empty when nothing is.
+std::string unsoundness(const MeshQuality& quality, const MeshConditions& conditions) {
+  const std::pair<std::int64_t, const char*> counts[]{
+      {quality.inverted, "inverted tets"},
+      {conditions.nonmanifoldEdges, "non-manifold edges"},
+      {conditions.nonmanifoldNodes, "non-manifold nodes"},
+      {conditions.tetsWithFourBoundaryNodes, "tets with four boundary nodes"},
+      {conditions.interiorEdgesBetweenBoundaryNodes, "interior edges between boundary nodes"},
+      {conditions.interiorFacesWithThreeBoundaryNodes, "interior faces with three boundary nodes"}};
+  std::string text;
+  for (const auto& [count, what] : counts)
+    if (count > 0) text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + what;
+  return text;
+}
+
+/// The steps of one tissue, with what they share.
+class TissueRun {
+ public:
+  TissueRun(const Segmentation& segmentation, const TissueJob& job, const MeshTissuesOptions& options,
+            double availableMemory, ProgressSum& progress)
+      : segmentation_(segmentation),
+        tissue_(segmentation.tissues[job.tissue]),
+        job_(job),
+        options_(options),
+        availableMemory_(availableMemory),
+        progress_(progress) {
+    report_.name = tissue_.name;
+    report_.label = tissue_.label;
+    report_.layer = tissue_.layer;
+    report_.edgeLength = job.sizes.edge;
+  }
+
+  void run(const std::filesystem::path& folder) {
+    const TetMesh mesh = generate();
+    if (mesh.tets.empty()) return lose();
+    measure(mesh);
+    const std::string wrong = unsoundness(report_.quality, report_.conditions);
+    if (!wrong.empty()) throw std::runtime_error("the mesh is unsound and was not written: " + wrong);
+    advance("writing", kAfterMeasure);
+    OutputFile output(folder / job_.file);
+    writeVtu(mesh, output.temporary());
+    output.commit();
+    lap("writing");
+    report_.file = job_.file;
+    report_.status = TissueStatus::Meshed;
+    report_.message = warning();
+  }
+
+  TissueReport& report() { return report_; }
+  void advance(const std::string& stage, double fraction) {
+    progress_.report(job_.slot, tissue_.name, stage, fraction);
+  }
+
+ private:
+  /// The mesh in LPS; leaves the level set behind for measure().
+  TetMesh generate() {
+    advance("level set", 0);
+    LevelSet levelSet = levelSetFromLabels(segmentation_, tissue_, options_.levelSet, &volumes_);
+    frame_ = levelSet.frame;
+    surface_ = std::make_unique<LevelSetSurface>(levelSet);
+    levelSet.grid.reset();
+    lap("level set");
+
+    GenerateTetMeshOptions options;
+    options.edgeLength = job_.sizes.edge;
+    options.maxEdgeLength = job_.sizes.largest;
+    options.curvature = options_.curvature;
+    options.levels = options_.levels;
+    options.label = tissue_.label;
+    options.progress = [this](std::string_view stage, double fraction) {
+      advance(std::string(stage), kAfterLevelSet + fraction * (kAfterMesh - kAfterLevelSet));
+    };
+    const double memory = estimateMemory(*surface_, options);
+    if (memory > availableMemory_)
+      throw std::runtime_error("the mesh would take about " + formatBytes(memory) + " of memory, but " +
+                               formatBytes(availableMemory_) + " is available; use a larger edge length");
+    advance("lattice", kAfterLevelSet);
+    GenerateTetMeshReport mesher;
+    TetMesh mesh = generateTetMesh(*surface_, options, &mesher);
+    for (const auto& stage : mesher.stages) report_.seconds.emplace_back(stage.name, stage.seconds);
+    watch_.lap();
+    for (Eigen::Vector3d& node : mesh.nodes) node = frame_ * node;
+    return mesh;
+  }
+
+  void measure(const TetMesh& mesh) {
+    advance("measuring", kAfterMesh);
+    report_.quality = meshQuality(mesh);
+    report_.conditions = meshConditions(mesh);
+    report_.topology = meshTopology(mesh);
+    const LevelSetTopology topology = levelSetTopology(*surface_);
+    report_.levelSetComponents = topology.components;
+    report_.levelSetEuler = topology.eulerCharacteristic;
+    const FidelityReport fidelity =
+        measureFidelity(mesh, *surface_, frame_, volumes_, segmentation_, tissue_);
+    report_.fidelity = fidelity.fidelity;
+    report_.lost = fidelity.lost;
+    surface_.reset();
+    lap("measuring");
+  }
+
+  void lose() {
+    report_.status = TissueStatus::Lost;
+    report_.fidelity.labelVolume = volumes_.labelVolume;
+    report_.fidelity.levelSetVolume = volumes_.levelSetVolume;
+    report_.lost.components =
+        static_cast<std::int64_t>(labelComponents(segmentation_, tissue_).voxels.size());
+    report_.lost.volume = volumes_.labelVolume;
+    report_.message = "too small for the lattice: " + std::to_string(tissue_.voxels) + " voxels, " +
+                      number(volumes_.labelVolume) + " mm^3, at edge length " + number(job_.sizes.edge) +
+                      " mm; a smaller --size may keep it";
+  }
+
+  std::string warning() const {
+    if (report_.lost.components == 0) return "";
+    return std::to_string(report_.lost.components) + (report_.lost.components == 1 ? " piece" : " pieces") +
+           " of " + number(report_.lost.volume) + " mm^3 in all too small for the lattice";
+  }
+
+  void lap(const std::string& stage) { report_.seconds.emplace_back(stage, watch_.lap()); }
+
+  const Segmentation& segmentation_;
+  const Tissue& tissue_;
+  const TissueJob& job_;
+  const MeshTissuesOptions& options_;
+  double availableMemory_;
+  ProgressSum& progress_;
+  Stopwatch watch_;
+  Eigen::Isometry3d frame_;
+  LevelSetFromLabelsReport volumes_;
+  std::unique_ptr<LevelSetSurface> surface_;
+  TissueReport report_;
+};
+
+}  // namespace
+
+TissueReport meshOneTissue(const Segmentation& segmentation, const TissueJob& job,
+                           const std::filesystem::path& folder, const MeshTissuesOptions& options,
+                           double availableMemory, ProgressSum& progress) {
+  TissueRun run(segmentation, job, options, availableMemory, progress);
+  TissueReport& report = run.report();
+  try {
+    run.run(folder);
+  } catch (const std::bad_alloc&) {
+    report.message = "out of memory";
+  } catch (const std::exception& error) {
+    report.message = oneLine(error.what());
+  }
+  if (report.file.empty()) {
+    std::error_code ignored;
+    std::filesystem::remove(folder / job.file, ignored);
+  }
+  run.advance("done", 1);
+  return report;
+}
+
+}  // namespace sinew

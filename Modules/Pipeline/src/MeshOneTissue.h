@@ -1,0 +1,30 @@
+#pragma once
+
+#include "ProgressSum.h"
+#include "TissueCost.h"
+#include "sinew/Pipeline/MeshTissues.h"
+
+namespace sinew {
+
+struct TissueSizes {
+  double edge = 0;     ///< cube size at the surface, mm
+  double largest = 0;  ///< deep inside, mm
+};
+
+/// One tissue of a run.
+struct TissueJob {
+  std::size_t slot = 0;  ///< place in the list of reports
+  int tissue = 0;        ///< index into the segmentation's table
+  std::string file;      ///< name inside the output folder
+  TissueSizes sizes;
+  TissueCost cost;
+};
+
+/// Voxels to a written and measured mesh. Whatever goes wrong is in the report.
+/// @param availableMemory  bytes; a mesh that would take more fails
+/// @throws ProgressSum::Stopped only.
+TissueReport meshOneTissue(const Segmentation& segmentation, const TissueJob& job,
+                           const std::filesystem::path& folder, const MeshTissuesOptions& options,
+                           double availableMemory, ProgressSum& progress);
+
+}  // namespace sinew

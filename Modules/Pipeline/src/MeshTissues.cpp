@@ -1,0 +1,129 @@
+#include "sinew/Pipeline/MeshTissues.h"
+
+#include "MeshOneTissue.h"
+#include "ProgressSum.h"
+#include "TissueCost.h"
+#include "sinew/Pipeline/FileNames.h"
+#include "sinew/Pipeline/Memory.h"
+#include "sinew/Pipeline/SelectTissues.h"
+
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_pipeline.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+namespace sinew {
+namespace {
+
+constexpr double kUsableMemory = 0.9;  // of what is available: other programs live too
+
+double checkedLength(Length length, double voxel, const std::string& what) {
+  const double mm = length.millimetres(voxel);
+  if (!(mm > 0))
+    throw std::invalid_argument(what + " is " + toString(length) + ", but must be larger than 0");
+  return mm;
+}
+
+/// The sizes of every tissue, with the wishes of the user resolved.
+std::vector<TissueSizes> resolveSizes(const Segmentation& segmentation, const MeshTissuesOptions& options) {
+  const double voxel = segmentation.geometry.meanSpacing();
+  std::vector<double> edges(segmentation.tissues.size(),
+                            checkedLength(options.edgeLength, voxel, "the edge length"));
+  for (const auto& [wish, length] : options.sizes)
+    for (const int tissue : selectTissues(segmentation, {wish}))
+      edges[tissue] = checkedLength(length, voxel, "the edge length of '" + wish + "'");
+  const double maximum = options.maxEdgeLength.millimetres(voxel);
+  if (!(maximum >= 0))
+    throw std::invalid_argument("the largest edge length is " + toString(options.maxEdgeLength) +
+                                ", but must not be negative");
+  std::vector<TissueSizes> sizes;
+  for (const double edge : edges) sizes.push_back({edge, maximum > 0 ? std::max(maximum, edge) : 8 * edge});
+  return sizes;
+}
+
+/// How many tissues may be in flight, when the largest come first.
+/// @throws std::invalid_argument when not even the largest fits.
+int tissuesInFlight(const Segmentation& segmentation, const std::vector<TissueJob>& jobs, double available) {
+  const TissueJob& largest = jobs.front();
+  const Tissue& tissue = segmentation.tissues[largest.tissue];
+  if (largest.cost.memory > available) {
+    const double fitting = largest.sizes.edge * std::sqrt(largest.cost.memory / available);
+    throw std::invalid_argument(segmentation.source + ": '" + tissue.name + "' at edge length " +
+                                toString(largest.sizes.edge) + " would take about " +
+                                formatBytes(largest.cost.memory) + " of memory, but " +
+                                formatBytes(available) + " is available; use " +
+                                toString(std::ceil(fitting * 100) / 100) + " or more");
+  }
+  const auto threads = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  double memory = 0;
+  int count = 0;
+  for (const TissueJob& job : jobs) {
+    memory += job.cost.memory;
+    if (memory > available || count == static_cast<int>(threads)) break;
+    ++count;
+  }
+  return count;
+}
+
+std::vector<TissueJob> jobsLargestFirst(const Segmentation& segmentation, const std::vector<int>& tissues,
+                                        const MeshTissuesOptions& options) {
+  const std::vector<TissueSizes> sizes = resolveSizes(segmentation, options);
+  const std::vector<std::string> stems = tissueFileStems(segmentation.tissues);
+  std::vector<TissueJob> jobs(tissues.size());
+  tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t j) {
+    const int t = tissues[j];
+    jobs[j] = {j, t, stems[t] + ".vtu", sizes[t],
+               estimateCost(segmentation, segmentation.tissues[t], sizes[t].edge, sizes[t].largest,
+                            options.levelSet)};
+  });
+  // Largest need of memory first; the stable sort keeps ties in the order of the table.
+  std::stable_sort(jobs.begin(), jobs.end(),
+                   [](const TissueJob& a, const TissueJob& b) { return a.cost.memory > b.cost.memory; });
+  return jobs;
+}
+
+}  // namespace
+
+std::vector<TissueReport> meshTissues(const Segmentation& segmentation, const std::vector<int>& tissues,
+                                      const std::filesystem::path& folder, const MeshTissuesOptions& options,
+                                      const TissueProgress& progress) {
+  if (tissues.empty()) return {};
+  const std::vector<TissueJob> jobs = jobsLargestFirst(segmentation, tissues, options);
+  const double available = kUsableMemory * availableMemory();
+  const int inFlight = tissuesInFlight(segmentation, jobs, available);
+
+  std::vector<double> work(jobs.size());
+  for (const TissueJob& job : jobs) work[job.slot] = job.cost.work;
+  ProgressSum sum(work, progress);
+  std::vector<TissueReport> reports(jobs.size());
+  std::size_t next = 0;
+  const auto nextJob = [&](tbb::flow_control& flow) -> std::size_t {
+    if (next < jobs.size() && !sum.stopped()) return next++;
+    flow.stop();
+    return next;
+  };
+  const auto runJob = [&](std::size_t j) {
+    // Without the isolation a thread that waits for its own loops would begin another tissue, beyond
+    // `inFlight`.
+    tbb::this_task_arena::isolate([&] {
+      try {
+        reports[jobs[j].slot] = meshOneTissue(segmentation, jobs[j], folder, options, available, sum);
+      } catch (const ProgressSum::Stopped&) {
+        // Leave by the pipeline's end: an exception here would cancel the loops of the other tissues
+        // half-way.
+      }
+    });
+  };
+  tbb::parallel_pipeline(inFlight,
+                         tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, nextJob) &
+                             tbb::make_filter<std::size_t, void>(tbb::filter_mode::parallel, runJob));
+  sum.rethrow();
+  return reports;
+}
+
+}  // namespace sinew

@@ -1,0 +1,194 @@
+#include "sinew/Pipeline/Report.h"
+
+#include "sinew/Pipeline/Memory.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+#include <sys/utsname.h>
+#include <thread>
+
+namespace sinew {
+namespace {
+
+using Json = nlohmann::ordered_json;  // keeps the order in which fields are written here
+
+Json toJsonObject(const MeshQuality& quality) {
+  return {{"max_aspect_ratio", quality.maxAspectRatio},  {"mean_aspect_ratio", quality.meanAspectRatio},
+          {"min_dihedral_deg", quality.minDihedralDeg},  {"max_dihedral_deg", quality.maxDihedralDeg},
+          {"max_over_min_edge", quality.maxOverMinEdge}, {"inverted", quality.inverted}};
+}
+
+Json toJsonObject(const MeshConditions& conditions) {
+  return {{"nonmanifold_edges", conditions.nonmanifoldEdges},
+          {"nonmanifold_nodes", conditions.nonmanifoldNodes},
+          {"tets_with_four_boundary_nodes", conditions.tetsWithFourBoundaryNodes},
+          {"interior_edges_between_boundary_nodes", conditions.interiorEdgesBetweenBoundaryNodes},
+          {"interior_faces_with_three_boundary_nodes", conditions.interiorFacesWithThreeBoundaryNodes}};
+}
+
+Json toJsonObject(const MeshTopology& topology) {
+  return {{"components", topology.components},
+          {"boundary_components", topology.boundaryComponents},
+          {"euler_characteristic", topology.eulerCharacteristic}};
+}
+
+Json toJsonObject(const Fidelity& fidelity) {
+  return {{"max_boundary_phi_mm", fidelity.maxBoundaryPhi},
+          {"surface_rms_mm", fidelity.surfaceRms},
+          {"surface_max_mm", fidelity.surfaceMax},
+          {"volume_mm3", fidelity.volume},
+          {"label_volume_mm3", fidelity.labelVolume},
+          {"level_set_volume_mm3", fidelity.levelSetVolume},
+          {"dice", fidelity.dice}};
+}
+
+Json toJsonObject(const LostPieces& lost) {
+  return {{"components", lost.components}, {"volume_mm3", lost.volume}};
+}
+
+Json toJsonObject(const TissueReport& report) {
+  Json seconds = Json::object();
+  for (const auto& [stage, time] : report.seconds) seconds[stage] = time;
+  Json topology = toJsonObject(report.topology);
+  topology["level_set_components"] = report.levelSetComponents;
+  topology["level_set_euler_characteristic"] = report.levelSetEuler;
+  return {{"name", report.name},
+          {"label", report.label},
+          {"layer", report.layer},
+          {"file", report.file},
+          {"status", toString(report.status)},
+          {"message", report.message},
+          {"edge_length_mm", report.edgeLength},
+          {"seconds", seconds},
+          {"tets", report.quality.tets},
+          {"nodes", report.quality.nodes},
+          {"quality", toJsonObject(report.quality)},
+          {"conditions", toJsonObject(report.conditions)},
+          {"topology", topology},
+          {"fidelity", toJsonObject(report.fidelity)},
+          {"lost", toJsonObject(report.lost)}};
+}
+
+Json toJsonObject(const MeshTissuesOptions& options, double voxel) {
+  Json sizes = Json::object();
+  for (const auto& [wish, length] : options.sizes) sizes[wish] = length.millimetres(voxel);
+  const double edge = options.edgeLength.millimetres(voxel);
+  const double largest = options.maxEdgeLength.millimetres(voxel);
+  return {{"edge_length_mm", edge},
+          {"max_edge_length_mm", largest > 0 ? largest : 8 * edge},
+          {"sizes_mm", sizes},
+          {"curvature", options.curvature},
+          {"levels", options.levels},
+          {"method", "optimization"},
+          {"smoothing_voxels", options.levelSet.smoothingVoxels},
+          {"band_voxels", options.levelSet.bandVoxels},
+          {"thick_slice_ratio", options.levelSet.thickSliceRatio},
+          {"grid_spacing_mm", options.levelSet.gridSpacing}};
+}
+
+std::string processorName() {
+  std::ifstream stream("/proc/cpuinfo");
+  for (std::string line; std::getline(stream, line);)
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  return "unknown";
+}
+
+Json machine() {
+  utsname system{};
+  uname(&system);
+  return {{"processor", processorName()},
+          {"processors", std::thread::hardware_concurrency()},
+          {"system", std::string(system.sysname) + " " + system.release + " " + system.machine}};
+}
+
+Json toArray(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+std::string document(const Json& json) {
+  // Names may be in any encoding: what is not UTF-8 is replaced, not refused.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Json programFields() { return {{"program", "sinew"}, {"version", version()}}; }
+
+}  // namespace
+
+const char* version() { return SINEW_VERSION; }
+
+const char* toString(TissueStatus status) {
+  switch (status) {
+    case TissueStatus::Meshed:
+      return "meshed";
+    case TissueStatus::Lost:
+      return "lost";
+    case TissueStatus::Failed:
+      break;
+  }
+  return "failed";
+}
+
+std::string toJson(const MeshingReport& report) {
+  Json json = programFields();
+  json["input"] = report.input;
+  json["options"] = toJsonObject(report.options, report.voxel);
+  json["options"]["tissues"] = report.wishes;
+  json["machine"] = machine();
+  json["threads"] = report.threads;
+  json["total_seconds"] = report.seconds;
+  json["peak_memory_bytes"] = static_cast<std::int64_t>(report.peakMemory);
+  json["tissues"] = Json::array();
+  for (const TissueReport& tissue : report.tissues) json["tissues"].push_back(toJsonObject(tissue));
+  return document(json);
+}
+
+std::string toJson(const std::vector<MeshAssessment>& meshes) {
+  Json json = programFields();
+  json["meshes"] = Json::array();
+  for (const MeshAssessment& mesh : meshes) {
+    Json entry{{"file", mesh.file},
+               {"tets", mesh.quality.tets},
+               {"nodes", mesh.quality.nodes},
+               {"volume_mm3", mesh.quality.volume},
+               {"quality", toJsonObject(mesh.quality)},
+               {"conditions", toJsonObject(mesh.conditions)},
+               {"topology", toJsonObject(mesh.topology)}};
+    if (mesh.fidelity) {
+      entry["tissue"] = mesh.tissue;
+      entry["fidelity"] = toJsonObject(*mesh.fidelity);
+      entry["lost"] = toJsonObject(mesh.lost);
+    }
+    json["meshes"].push_back(entry);
+  }
+  return document(json);
+}
+
+std::string toJson(const Segmentation& segmentation, const std::vector<std::int64_t>& pieces) {
+  const ImageGeometry& geometry = segmentation.geometry;
+  Json json = programFields();
+  json["input"] = segmentation.source;
+  json["size"] = {geometry.size.x(), geometry.size.y(), geometry.size.z()};
+  json["spacing_mm"] = toArray(geometry.spacing);
+  json["origin_mm"] = toArray(geometry.origin);
+  json["direction_columns"] = {toArray(geometry.direction.col(0)), toArray(geometry.direction.col(1)),
+                               toArray(geometry.direction.col(2))};
+  json["voxel_volume_mm3"] = geometry.voxelVolume();
+  json["layers"] = segmentation.layers.size();
+  json["tissues"] = Json::array();
+  for (std::size_t t = 0; t < segmentation.tissues.size(); ++t) {
+    const Tissue& tissue = segmentation.tissues[t];
+    json["tissues"].push_back({{"label", tissue.label},
+                               {"layer", tissue.layer},
+                               {"name", tissue.name},
+                               {"named", tissue.named},
+                               {"color", tissue.color},
+                               {"voxels", tissue.voxels},
+                               {"volume_mm3", static_cast<double>(tissue.voxels) * geometry.voxelVolume()},
+                               {"pieces", pieces[t]}});
+  }
+  json["empty_tissues"] = Json::array();
+  for (const Tissue& tissue : segmentation.emptyTissues) json["empty_tissues"].push_back(tissue.name);
+  return document(json);
+}
+
+}  // namespace sinew

@@ -1,0 +1,65 @@
+#include "TissueCost.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sinew {
+namespace {
+
+// A staircase has 1.5 times the area of the smooth surface behind it, over all directions.
+constexpr double kStaircaseArea = 1.5;
+// Measured on muscles and bones with the memory of the whole process, rounded up.
+constexpr double kBytesPerSurfaceCube =
+    6000;  // lattice, candidate and mesh, per cube face area of smooth surface
+constexpr double kBytesPerInnerCube = 3000;
+constexpr double kBytesPerVoxelOfBox = 24;   // crop, smoothed and resampled fields
+constexpr double kBytesPerBandVoxel = 20;    // grid, bricks, march
+constexpr double kWorkPerVoxelOfBox = 0.01;  // of the work of one surface cube
+
+/// Area of the faces between the tissue and all else, mm^2.
+double staircaseArea(const Segmentation& segmentation, const Tissue& tissue) {
+  const Eigen::Vector3d& spacing = segmentation.geometry.spacing;
+  const std::vector<std::int32_t>& voxels = segmentation.layers[tissue.layer];
+  const Eigen::Vector3i& size = segmentation.geometry.size;
+  const std::array<std::ptrdiff_t, 3> stride{1, size.x(), static_cast<std::ptrdiff_t>(size.x()) * size.y()};
+  std::array<std::int64_t, 3> faces{};
+  for (int z = tissue.box.lower.z(); z < tissue.box.upper.z(); ++z)
+    for (int y = tissue.box.lower.y(); y < tissue.box.upper.y(); ++y)
+      for (int x = tissue.box.lower.x(); x < tissue.box.upper.x(); ++x) {
+        const std::array<int, 3> index{x, y, z};
+        const std::int32_t* voxel = voxels.data() + x * stride[0] + y * stride[1] + z * stride[2];
+        if (*voxel != tissue.label) continue;
+        for (int axis = 0; axis < 3; ++axis) {
+          faces[axis] += index[axis] == 0 || voxel[-stride[axis]] != tissue.label;
+          faces[axis] += index[axis] + 1 == size[axis] || voxel[stride[axis]] != tissue.label;
+        }
+      }
+  double area = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    area += static_cast<double>(faces[axis]) * spacing[(axis + 1) % 3] * spacing[(axis + 2) % 3];
+  return area;
+}
+
+}  // namespace
+
+TissueCost estimateCost(const Segmentation& segmentation, const Tissue& tissue, double edgeLength,
+                        double maxEdgeLength, const LevelSetFromLabelsOptions& options) {
+  const ImageGeometry& geometry = segmentation.geometry;
+  const double area = staircaseArea(segmentation, tissue) / kStaircaseArea;
+  const double volume = static_cast<double>(tissue.voxels) * geometry.voxelVolume();
+  const double gridSpacing = options.gridSpacing > 0
+                                 ? options.gridSpacing
+                                 : std::max(geometry.spacing.minCoeff(), 0.5 * geometry.meanSpacing());
+  const Eigen::Vector3d extent =
+      (tissue.box.upper - tissue.box.lower).cast<double>().cwiseProduct(geometry.spacing).array() +
+      2 * options.bandVoxels * gridSpacing;
+  const double boxVoxels = extent.prod() / std::pow(gridSpacing, 3);
+  const double bandVoxels = 2 * options.bandVoxels * area / (gridSpacing * gridSpacing);
+  const double surfaceCubes = area / (edgeLength * edgeLength);
+  const double innerCubes = volume / std::pow(std::max(maxEdgeLength, edgeLength), 3);
+  return {surfaceCubes + innerCubes + kWorkPerVoxelOfBox * boxVoxels,
+          kBytesPerSurfaceCube * surfaceCubes + kBytesPerInnerCube * innerCubes +
+              kBytesPerVoxelOfBox * boxVoxels + kBytesPerBandVoxel * bandVoxels};
+}
+
+}  // namespace sinew
