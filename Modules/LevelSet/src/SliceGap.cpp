@@ -1,0 +1,168 @@
+#include "SliceGap.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace sinew {
+namespace {
+
+constexpr double kTolerated = 0.15;  ///< deviation of a ramp's mean height from one half that is left alone
+constexpr int kSkirt = 3;            ///< pixels around a limited piece whose distances must fit to it
+constexpr std::array<std::array<int, 2>, 8> kNeighbours{
+    {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
+
+/// A connected piece of the area that is tissue on one slice and background on the other.
+struct ChangingPiece {
+  std::vector<int> pixels;
+  bool meetsTissue = false;      ///< borders on pixels that are tissue on both slices
+  bool meetsBackground = false;  ///< borders on pixels that are background on both slices
+};
+
+class GapBalancer {
+ public:
+  GapBalancer(SliceGap& gap, double rounding) : gap_(gap), rounding_(rounding), seen_(gap.lower.size(), 0) {}
+
+  void run() {
+    for (std::size_t p = 0; p < gap_.lower.size(); ++p) {
+      if (seen_[p] || !changes(static_cast<int>(p))) continue;
+      limit(collect(static_cast<int>(p)));
+    }
+  }
+
+ private:
+  float lower(int p) const { return gap_.lower[static_cast<std::size_t>(p)]; }
+  float upper(int p) const { return gap_.upper[static_cast<std::size_t>(p)]; }
+  bool changes(int p) const { return (lower(p) < 0) != (upper(p) < 0); }
+
+  template <typename Visit>
+  void neighbours(int p, const Visit& visit) const {
+    const int x = p % gap_.nx, y = p / gap_.nx;
+    for (const auto& [dx, dy] : kNeighbours)
+      if (x + dx >= 0 && x + dx < gap_.nx && y + dy >= 0 && y + dy < gap_.ny) visit(p + dx + dy * gap_.nx);
+  }
+
+  ChangingPiece collect(int start) {
+    ChangingPiece piece;
+    const bool lowerInside = lower(start) < 0;
+    piece.pixels.push_back(start);
+    seen_[static_cast<std::size_t>(start)] = 1;
+    for (std::size_t next = 0; next < piece.pixels.size(); ++next)
+      neighbours(piece.pixels[next], [&](int n) {
+        if (!changes(n)) {
+          (lower(n) < 0 ? piece.meetsTissue : piece.meetsBackground) = true;
+        } else if (!seen_[static_cast<std::size_t>(n)] && (lower(n) < 0) == lowerInside) {
+          seen_[static_cast<std::size_t>(n)] = 1;
+          piece.pixels.push_back(n);
+        }
+      });
+    return piece;
+  }
+
+  void limit(const ChangingPiece& piece) {
+    if (!piece.meetsTissue) {
+      capPiece(piece, true);
+    } else if (!piece.meetsBackground) {
+      capPiece(piece, false);
+    } else {
+      limitRamp(piece);
+    }
+  }
+
+  /// Distance on the slice where the pixel is tissue (inside = true) or where it is background.
+  float& distanceOn(int p, bool inside) {
+    return ((lower(p) < 0) == inside ? gap_.lower : gap_.upper)[static_cast<std::size_t>(p)];
+  }
+
+  /// Ends a piece half way on average: with the depth s = min(|d|, rounding) below the rim and a constant c
+  /// on the other slice the surface is at the height s / (s + c) of the gap; c makes the mean height one
+  /// half.
+  /// @param tissue  the piece is tissue without counterpart; else it is a hole without one
+  void capPiece(const ChangingPiece& piece, bool tissue) {
+    std::vector<double> depth;
+    for (const int p : piece.pixels)
+      depth.push_back(std::min<double>(std::abs(distanceOn(p, tissue)), rounding_));
+    const auto meanHeight = [&](double c) {
+      double sum = 0;
+      for (const double s : depth) sum += s / (s + c);
+      return sum / static_cast<double>(depth.size());
+    };
+    double low = 1e-4 * rounding_, high = 1e2 * rounding_;
+    for (int step = 0; step < 30; ++step) {
+      const double middle = std::sqrt(low * high);
+      (meanHeight(middle) > 0.5 ? low : high) = middle;
+    }
+    const auto opposite = static_cast<float>(std::sqrt(low * high));
+    for (std::size_t n = 0; n < piece.pixels.size(); ++n) {
+      const int p = piece.pixels[n];
+      const float sign = tissue ? -1.0F : 1.0F;
+      distanceOn(p, tissue) = sign * static_cast<float>(depth[n]);
+      distanceOn(p, !tissue) = -sign * opposite;
+      gap_.limited[static_cast<std::size_t>(p)] = 1;
+    }
+    limitSkirt(piece, opposite);
+  }
+
+  /// Clamps both distances to the largest bound 2^-n that brings the mean height near one half.
+  void limitRamp(const ChangingPiece& piece) {
+    double bound = 0;
+    for (const int p : piece.pixels)
+      bound = std::max<double>(bound, std::max(std::abs(lower(p)), std::abs(upper(p))));
+    const auto meanHeight = [&] {
+      double sum = 0;
+      for (const int p : piece.pixels) {
+        const double s = std::min<double>(std::abs(distanceOn(p, true)), bound),
+                     o = std::min<double>(std::abs(distanceOn(p, false)), bound);
+        sum += s + o > 0 ? s / (s + o) : 0.5;
+      }
+      return sum / static_cast<double>(piece.pixels.size());
+    };
+    const double widest = bound;
+    while (std::abs(meanHeight() - 0.5) > kTolerated && bound > rounding_) bound /= 2;
+    if (bound == widest) return;
+    const auto limit = static_cast<float>(bound);
+    for (const int p : piece.pixels) {
+      for (const bool inside : {true, false})
+        distanceOn(p, inside) = std::clamp(distanceOn(p, inside), -limit, limit);
+      gap_.limited[static_cast<std::size_t>(p)] = 1;
+    }
+    limitSkirt(piece, limit);
+  }
+
+  /// Around a piece, on pixels that do not change: |far| <= bound + |near|, so that the field has no step
+  /// there.
+  void limitSkirt(const ChangingPiece& piece, float bound) {
+    std::vector<int> ring = piece.pixels, next;
+    for (int round = 0; round < kSkirt; ++round) {
+      next.clear();
+      for (const int p : ring)
+        neighbours(p, [&](int n) {
+          if (changes(n) || gap_.limited[static_cast<std::size_t>(n)]) return;
+          gap_.limited[static_cast<std::size_t>(n)] = 1;
+          next.push_back(n);
+          float &a = gap_.lower[static_cast<std::size_t>(n)], &b = gap_.upper[static_cast<std::size_t>(n)];
+          float& far = std::abs(a) > std::abs(b) ? a : b;
+          const float limit = bound + std::min(std::abs(a), std::abs(b));
+          far = std::clamp(far, -limit, limit);
+        });
+      ring.swap(next);
+    }
+  }
+
+  SliceGap& gap_;
+  double rounding_;
+  std::vector<std::uint8_t> seen_;
+};
+
+}  // namespace
+
+SliceGap::SliceGap(const float* lowerSlice, const float* upperSlice, int nx_, int ny_)
+    : nx(nx_),
+      ny(ny_),
+      lower(lowerSlice, lowerSlice + std::ptrdiff_t{nx_} * ny_),
+      upper(upperSlice, upperSlice + std::ptrdiff_t{nx_} * ny_),
+      limited(lower.size(), 0) {}
+
+void SliceGap::balance(double rounding) { GapBalancer(*this, rounding).run(); }
+
+}  // namespace sinew

@@ -1,0 +1,81 @@
+#include "sinew/LevelSet/SliceInterpolation.h"
+
+#include "SliceGap.h"
+#include "Tricubic.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace sinew {
+namespace {
+
+void checkPositions(const DenseField& slices, const std::vector<double>& positions) {
+  if (slices.size.z() < 2) throw std::invalid_argument("interpolateSlices: at least two slices are needed");
+  if (!std::is_sorted(positions.begin(), positions.end()) ||
+      (!positions.empty() && (positions.front() < 0 || positions.back() > slices.size.z() - 1)))
+    throw std::invalid_argument("interpolateSlices: positions must ascend within the slices");
+}
+
+/// The value between b and c. Where b and c agree in sign, so does the result: at least half of what a
+/// straight line between them has, for the cubic can swing through zero beside a jump.
+float keepSign(float cubic, float linear, float b, float c) {
+  if ((b < 0) != (c < 0)) return cubic;
+  return linear < 0 ? std::min(cubic, 0.5F * linear) : std::max(cubic, 0.5F * linear);
+}
+
+/// Fills the planes of one gap; positions [first, last) lie in it.
+class GapPlanes {
+ public:
+  GapPlanes(const DenseField& slices, int k, double rounding)
+      : slices_(slices),
+        k_(k),
+        gap_(slices.row(0, k), slices.row(0, k + 1), slices.size.x(), slices.size.y()) {
+    gap_.balance(rounding);
+  }
+
+  void fill(double position, float limit, float* plane) const {
+    const int last = slices_.size.z() - 1;
+    const auto t = static_cast<float>(position - k_);
+    const CubicWeights cubic = cubicWeights(position - k_);
+    const float *before = slices_.row(0, std::max(k_ - 1, 0)), *lower = slices_.row(0, k_),
+                *upper = slices_.row(0, k_ + 1), *after = slices_.row(0, std::min(k_ + 2, last));
+    std::array<float, 4> w;
+    for (std::size_t s = 0; s < 4; ++s) w[s] = static_cast<float>(cubic.value[s]);
+    for (std::size_t p = 0; p < gap_.lower.size(); ++p) {
+      const float b = gap_.lower[p], c = gap_.upper[p], linear = b + t * (c - b);
+      float value = linear;
+      if (!gap_.limited[p])
+        value =
+            keepSign(w[0] * before[p] + w[1] * lower[p] + w[2] * upper[p] + w[3] * after[p], linear, b, c);
+      plane[p] = std::clamp(value, -limit, limit);
+    }
+  }
+
+ private:
+  const DenseField& slices_;
+  int k_;
+  SliceGap gap_;
+};
+
+}  // namespace
+
+DenseField interpolateSlices(const DenseField& slices, double sliceSpacing,
+                             const std::vector<double>& positions, double limit) {
+  checkPositions(slices, positions);
+  DenseField result({slices.size.x(), slices.size.y(), static_cast<int>(positions.size())});
+  const int gaps = slices.size.z() - 1;
+  tbb::parallel_for(0, gaps, [&](int k) {
+    const auto first = std::lower_bound(positions.begin(), positions.end(), k);
+    const auto last = k + 1 == gaps ? positions.end() : std::lower_bound(first, positions.end(), k + 1);
+    if (first == last) return;
+    const GapPlanes planes(slices, k, sliceSpacing);
+    for (auto at = first; at != last; ++at)
+      planes.fill(*at, static_cast<float>(limit), result.row(0, static_cast<int>(at - positions.begin())));
+  });
+  return result;
+}
+
+}  // namespace sinew
