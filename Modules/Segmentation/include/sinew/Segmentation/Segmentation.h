@@ -38,12 +38,13 @@ struct Segmentation {
   std::vector<Tissue> tissues;                    ///< by layer, then label; only tissues that have voxels
   std::vector<Tissue> emptyTissues;               ///< named in the file's own table, but without a voxel
   std::string source;                             ///< path it was read from, for messages
+  std::map<std::string, std::string> keys;        ///< Slicer's keys of the file as a whole, carried through
 
   std::int32_t at(int layer, const Eigen::Vector3i& index) const;
 };
 
 /// Rebuilds voxels and boxes of the tissue table from the layers: values without an entry get one named
-/// `Segment_<value>` with a colour of its own, entries without voxels move to `emptyTissues`.
+/// `Segment_<value>` (`Segment_<value>_layer_<n>` above layer 0) with a colour of its own, entries without voxels move to `emptyTissues`.
 /// Cost: O(voxels).
 void updateTissueTable(Segmentation& segmentation);
 

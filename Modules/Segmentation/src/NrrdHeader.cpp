@@ -1,0 +1,183 @@
+#include "ImageFormats.h"
+#include "Text.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <vector>
+
+// https://teem.sourceforge.net/nrrd/format.html
+
+namespace sinew {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kLargestHeader = 64 << 20;  // bytes
+
+struct NrrdFields {
+  std::map<std::string, std::string> fields;  ///< lower-case name -> value
+  std::map<std::string, std::string> keys;    ///< key/value pairs
+  std::uint64_t bytes = 0;                    ///< of the header with its blank line
+};
+
+/// `\\n` and `\\\\` stand for a line end and a backslash.
+std::string unescape(std::string_view value) {
+  std::string result;
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const char next = i + 1 < value.size() ? value[i + 1] : '\0';
+    if (value[i] == '\\' && (next == 'n' || next == '\\')) {
+      result += next == 'n' ? '\n' : '\\';
+      ++i;
+    } else {
+      result += value[i];
+    }
+  }
+  return result;
+}
+
+NrrdFields readFields(const fs::path& file) {
+  NrrdFields header;
+  std::ifstream stream(file, std::ios::binary);
+  std::string line;
+  std::getline(stream, line);
+  header.bytes = line.size() + 1;
+  while (std::getline(stream, line)) {
+    header.bytes += line.size() + 1;
+    if (header.bytes > kLargestHeader)
+      text::refuse(file, "has no end of its NRRD header (a blank line); export the segmentation again");
+    if (line.ends_with('\r')) line.pop_back();
+    if (line.empty()) break;
+    if (line.starts_with('#')) continue;
+    const auto key = line.find(":="), name = line.find(": ");
+    if (key < name)
+      header.keys.insert_or_assign(unescape(line.substr(0, key)), unescape(line.substr(key + 2)));
+    else if (name != std::string::npos)
+      header.fields.insert_or_assign(text::lower(line.substr(0, name)),
+                                     std::string(text::trim(line.substr(name + 2))));
+  }
+  return header;
+}
+
+/// Value of a field under any of its names; empty when it is missing.
+std::string_view field(const NrrdFields& header, std::initializer_list<std::string_view> names) {
+  for (const std::string_view name : names)
+    if (const auto found = header.fields.find(std::string(name)); found != header.fields.end())
+      return found->second;
+  return {};
+}
+
+std::vector<std::int64_t> sizes(const fs::path& file, const NrrdFields& header) {
+  std::vector<std::int64_t> result;
+  for (const std::string_view word : text::words(field(header, {"sizes"}))) {
+    const auto size = text::number<std::int64_t>(word);
+    if (!size)
+      text::refuse(file, "its NRRD field `sizes` is no list of whole numbers; export the segmentation again");
+    result.push_back(*size);
+  }
+  const auto dimension = text::number<std::size_t>(field(header, {"dimension"}));
+  if (!dimension || *dimension != result.size() || result.empty())
+    text::refuse(
+        file, "its NRRD fields `dimension` and `sizes` are missing or differ; export the segmentation again");
+  return result;
+}
+
+/// Bytes of one value of each NRRD type.
+std::uint64_t bytesPerValue(const fs::path& file, const NrrdFields& header) {
+  struct Type {
+    std::uint64_t bytes;
+    std::initializer_list<std::string_view> names;
+  };
+  static const std::array types{
+      Type{1, {"signed char", "int8", "int8_t", "uchar", "unsigned char", "uint8", "uint8_t"}},
+      Type{2, {"short", "short int", "signed short", "signed short int", "int16", "int16_t"}},
+      Type{2, {"ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t"}},
+      Type{4,
+           {"int", "signed int", "int32", "int32_t", "uint", "unsigned int", "uint32", "uint32_t", "float"}},
+      Type{8, {"longlong", "long long", "long long int", "signed long long", "signed long long int"}},
+      Type{8, {"int64", "int64_t", "ulonglong", "unsigned long long", "unsigned long long int", "uint64"}},
+      Type{8, {"uint64_t", "double"}},
+  };
+  const std::string name = text::lower(field(header, {"type"}));
+  for (const Type& type : types)
+    if (std::ranges::find(type.names, name) != type.names.end()) return type.bytes;
+  text::refuse(file, "its NRRD type is `" + text::printable(name) + "`; save it with an integer type");
+}
+
+/// Axes of these kinds hold the components of a pixel, not a direction in space.
+bool isRangeKind(std::string_view kind) {
+  return !kind.empty() && kind != "domain" && kind != "space" && kind != "time" && kind != "???" &&
+         kind != "none";
+}
+
+void checkSpacings(const fs::path& file, const NrrdFields& header,
+                   const std::vector<std::string_view>& kinds) {
+  int axis = 0;
+  const auto spacings = text::words(field(header, {"spacings"}));
+  for (std::size_t i = 0; i < spacings.size(); ++i) {
+    if (i < kinds.size() && isRangeKind(kinds[i])) continue;
+    if (const auto value = text::number<double>(spacings[i]))
+      requireSpacing(file, *value, axis, "NRRD `spacings`");
+    ++axis;
+  }
+}
+
+/// `(x,y,z) (x,y,z) (x,y,z)`, with `none` for the components of a pixel.
+void checkDirections(const fs::path& file, const NrrdFields& header) {
+  std::vector<Eigen::Vector3d> axes;
+  std::string_view rest = field(header, {"space directions"});
+  while (true) {
+    const auto open = rest.find('('), close = rest.find(')', open);
+    if (open == std::string_view::npos || close == std::string_view::npos) break;
+    const auto numbers = text::split(rest.substr(open + 1, close - open - 1), ',');
+    rest.remove_prefix(close + 1);
+    if (numbers.size() != 3) return;  // a space that is not ours: ITK says what it makes of it
+    Eigen::Vector3d axis;
+    for (int c = 0; c < 3; ++c) axis[c] = text::number<double>(numbers[c]).value_or(std::nan(""));
+    requireSpacing(file, axis.norm(), static_cast<int>(axes.size()), "length of its NRRD `space directions`");
+    axes.push_back(axis);
+  }
+  if (axes.size() != 3) return;
+  Eigen::Matrix3d matrix;
+  matrix << axes[0], axes[1], axes[2];
+  requireDirections(file, matrix, "NRRD `space directions`");
+}
+
+/// The one file with the voxels; empty when a list or a pattern names many.
+std::optional<fs::path> dataFile(const fs::path& file, const NrrdFields& header) {
+  const std::string_view name = field(header, {"data file", "datafile"});
+  if (name.empty()) return file;
+  if (name.starts_with("LIST") || name.find('%') != std::string_view::npos) return std::nullopt;
+  const fs::path path = file.parent_path() / fs::path(name);
+  if (!fs::is_regular_file(path))
+    text::refuse(file,
+                 "its data file `" + text::printable(name) + "` is missing; put it next to this header");
+  return path;
+}
+
+std::optional<ImagePayload> payload(const fs::path& file, const NrrdFields& header, std::uint64_t bytes) {
+  const std::string encoding = text::lower(field(header, {"encoding"}));
+  const bool raw = encoding == "raw", gzip = encoding == "gzip" || encoding == "gz";
+  const auto data = dataFile(file, header);
+  if (!data || !(raw || gzip)) return std::nullopt;
+  return ImagePayload{
+      .file = *data, .offset = data == file ? header.bytes : 0, .compressed = gzip, .bytes = bytes};
+}
+
+}  // namespace
+
+ImageHeader readNrrdHeader(const fs::path& file) {
+  const NrrdFields fields = readFields(file);
+  const std::string lowerKinds = text::lower(field(fields, {"kinds"}));
+  const auto kinds = text::words(lowerKinds);
+  checkSpacings(file, fields, kinds);
+  checkDirections(file, fields);
+  ImageHeader header{.format = ImageFormat::Nrrd, .keys = fields.keys};
+  header.list = std::ranges::count(kinds, "list") == 1;
+  header.payload = payload(file, fields, volumeBytes(file, sizes(file, fields), bytesPerValue(file, fields)));
+  return header;
+}
+
+}  // namespace sinew

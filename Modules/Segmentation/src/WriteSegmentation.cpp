@@ -1,0 +1,174 @@
+#include "sinew/Segmentation/WriteSegmentation.h"
+
+#include "SlicerKeys.h"
+#include "Text.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+#include <zlib.h>
+
+// https://teem.sourceforge.net/nrrd/format.html
+
+namespace sinew {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "the header says so");
+
+/// NRRD's name and the bytes of the type that the voxels are written in.
+struct VoxelType {
+  std::string_view name;
+  int bytes;
+  std::int32_t least;
+  std::int32_t most;
+};
+
+/// Slicer reads no 64-bit and no signed 8-bit labels.
+constexpr std::array kVoxelTypes{VoxelType{"unsigned char", 1, 0, 255}, VoxelType{"short", 2, -32768, 32767},
+                                 VoxelType{"unsigned short", 2, 0, 65535},
+                                 VoxelType{"int", 4, INT32_MIN, INT32_MAX}};
+
+void requireWritable(const Segmentation& segmentation) {
+  if (segmentation.layers.empty()) throw std::invalid_argument("writeSegmentation: there is no layer");
+  for (const auto& layer : segmentation.layers)
+    if (static_cast<std::int64_t>(layer.size()) != segmentation.geometry.voxelCount())
+      throw std::invalid_argument("writeSegmentation: a layer has " + std::to_string(layer.size()) +
+                                  " voxels, the geometry " +
+                                  std::to_string(segmentation.geometry.voxelCount()));
+}
+
+const VoxelType& smallestType(const Segmentation& segmentation) {
+  std::int32_t least = 0, most = 0;
+  for (const auto& layer : segmentation.layers) {
+    if (layer.empty()) continue;
+    const auto [low, high] = std::ranges::minmax(layer);
+    least = std::min(least, low);
+    most = std::max(most, high);
+  }
+  return *std::ranges::find_if(
+      kVoxelTypes, [&](const VoxelType& type) { return type.least <= least && most <= type.most; });
+}
+
+std::string formatVector(const Eigen::Vector3d& v) {
+  return "(" + text::format(v.x()) + "," + text::format(v.y()) + "," + text::format(v.z()) + ")";
+}
+
+std::string escape(std::string_view value) {
+  std::string result;
+  for (const char c : value) {
+    if (c == '\n')
+      result += "\\n";
+    else if (c == '\\')
+      result += "\\\\";
+    else
+      result += c;
+  }
+  return result;
+}
+
+std::string nrrdHeader(const Segmentation& segmentation, const VoxelType& type) {
+  const ImageGeometry& geometry = segmentation.geometry;
+  const std::size_t layers = segmentation.layers.size();
+  const bool list = layers > 1;
+  std::string header = "NRRD0004\n";
+  const auto field = [&](std::string_view name, const std::string& value) {
+    header.append(name).append(": ").append(value).append("\n");
+  };
+  std::string sizes, directions;
+  for (int axis = 0; axis < 3; ++axis) {
+    sizes += " " + std::to_string(geometry.size[axis]);
+    directions += " " + formatVector(geometry.direction.col(axis) * geometry.spacing[axis]);
+  }
+  field("type", std::string(type.name));
+  field("dimension", list ? "4" : "3");
+  field("space", "left-posterior-superior");
+  field("sizes", (list ? std::to_string(layers) : "") + sizes.substr(list ? 0 : 1));
+  field("space directions", (list ? "none" : "") + directions.substr(list ? 0 : 1));
+  field("kinds", list ? "list domain domain domain" : "domain domain domain");
+  if (type.bytes > 1) field("endian", "little");
+  field("encoding", "gzip");
+  field("space origin", formatVector(geometry.origin));
+  for (const auto& [key, value] : slicer::writeKeys(segmentation))
+    header.append(escape(key)).append(":=").append(escape(value)).append("\n");
+  return header + "\n";
+}
+
+struct DeflateEnd {
+  void operator()(z_stream* stream) const { deflateEnd(stream); }
+};
+
+/// Packs bytes into a gzip member. Its header carries no time and no name: the same bytes give the same file.
+class GzipWriter {
+ public:
+  explicit GzipWriter(std::ostream& out) : out_(out), packed_(1 << 16) {
+    constexpr int gzipWrapper = 15 + 16, memory = 8;
+    if (deflateInit2(&stream_, Z_DEFAULT_COMPRESSION, Z_DEFLATED, gzipWrapper, memory, Z_DEFAULT_STRATEGY) !=
+        Z_OK)
+      throw std::bad_alloc();
+    owner_.reset(&stream_);
+  }
+
+  void write(std::span<const unsigned char> bytes) { deflateAll(bytes, Z_NO_FLUSH); }
+  void finish() { deflateAll({}, Z_FINISH); }
+
+ private:
+  void deflateAll(std::span<const unsigned char> bytes, int flush) {
+    stream_.next_in = const_cast<unsigned char*>(bytes.data());  // zlib reads only
+    stream_.avail_in = static_cast<uInt>(bytes.size());
+    do {
+      stream_.next_out = packed_.data();
+      stream_.avail_out = static_cast<uInt>(packed_.size());
+      deflate(&stream_, flush);
+      out_.write(reinterpret_cast<const char*>(packed_.data()),
+                 static_cast<std::streamsize>(packed_.size() - stream_.avail_out));
+    } while (stream_.avail_out == 0);
+  }
+
+  std::ostream& out_;
+  std::vector<unsigned char> packed_;
+  z_stream stream_{};
+  std::unique_ptr<z_stream, DeflateEnd> owner_;
+};
+
+/// The voxels of all layers, layer fastest, in chunks of a few rows.
+void writeVoxels(const Segmentation& segmentation, const VoxelType& type, GzipWriter& gzip) {
+  constexpr std::int64_t chunk = 1 << 16;  // voxels
+  const std::size_t layers = segmentation.layers.size();
+  const std::int64_t count = segmentation.geometry.voxelCount();
+  std::vector<unsigned char> bytes;
+  for (std::int64_t first = 0; first < count; first += chunk) {
+    const std::int64_t last = std::min(first + chunk, count);
+    bytes.resize(static_cast<std::size_t>(last - first) * layers * type.bytes);
+    unsigned char* out = bytes.data();
+    for (std::int64_t voxel = first; voxel < last; ++voxel)
+      for (const auto& layer : segmentation.layers) {
+        std::memcpy(out, &layer[voxel], type.bytes);  // the low bytes: two's complement, little endian
+        out += type.bytes;
+      }
+    gzip.write(bytes);
+  }
+  gzip.finish();
+}
+
+}  // namespace
+
+void writeSegmentation(const Segmentation& segmentation, const std::filesystem::path& file) {
+  requireWritable(segmentation);
+  std::ofstream out(file, std::ios::binary);
+  if (!out) text::refuse(file, "cannot be created; check its folder and its permissions");
+  const VoxelType& type = smallestType(segmentation);
+  out << nrrdHeader(segmentation, type);
+  GzipWriter gzip(out);
+  writeVoxels(segmentation, type, gzip);
+  out.close();
+  if (!out) text::refuse(file, "could not be written completely; check the space on the disk");
+}
+
+}  // namespace sinew
