@@ -1,0 +1,65 @@
+# cmake -D SOURCE_DIR=... -D SCRATCH_DIR=... -P LayeringTest.cmake
+cmake_minimum_required(VERSION 3.25)
+include(${CMAKE_CURRENT_LIST_DIR}/Layering.cmake)
+
+# A row: file | include | bad or fine. The test that cannot fail is no test.
+set(seeds
+  "Modules/Segmentation/src/A.cpp|<itkImage.h>|fine"
+  "Modules/Segmentation/include/sinew/Segmentation/A.h|<itkImage.h>|bad"
+  "Modules/Segmentation/src/B.cpp|\"sinew/LevelSet/LevelSet.h\"|bad"
+  "Modules/LevelSet/src/A.cpp|\"sinew/Segmentation/Segmentation.h\"|fine"
+  "Modules/LevelSet/src/B.cpp|<openvdb/openvdb.h>|fine"
+  "Modules/LevelSet/src/C.cpp|<vtkPoints.h>|bad"
+  "Modules/LevelSet/src/D.cpp|\"sinew/Mesher/TetMesh.h\"|bad"
+  "Modules/LevelSet/include/sinew/LevelSet/LevelSetGrid.h|<openvdb/openvdb.h>|fine"
+  "Modules/LevelSet/include/sinew/LevelSet/LevelSet.h|<openvdb/openvdb.h>|bad"
+  "Modules/LevelSet/include/sinew/LevelSet/B.h|\"sinew/LevelSet/LevelSetGrid.h\"|bad"
+  "Modules/Mesher/src/A.cpp|<tbb/parallel_for.h>|fine"
+  "Modules/Mesher/src/B.cpp|<Eigen/Core>|fine"
+  "Modules/Mesher/src/C.cpp|<vector>|fine"
+  "Modules/Mesher/src/D.cpp|\"sinew/LevelSet/LevelSet.h\"|bad"
+  "Modules/Mesher/src/E.cpp|<nlohmann/json.hpp>|bad"
+  "Modules/Mesher/src/F.cpp|<CGAL/Mesh_3.h>|bad"
+  "Modules/Mesher/src/G.cpp|\"../../LevelSet/src/Private.h\"|bad"
+  "Modules/Mesher/src/H.cpp|\"sinew/TestSupport/LatticeMesh.h\"|bad"
+  "Modules/Mesher/test/A.cpp|\"sinew/TestSupport/LatticeMesh.h\"|fine"
+  "Modules/MeshIO/src/A.cpp|\"sinew/Mesher/TetMesh.h\"|fine"
+  "Modules/MeshIO/src/B.cpp|<vtkPoints.h>|fine"
+  "Modules/MeshIO/src/C.cpp|\"sinew/Segmentation/Segmentation.h\"|bad"
+  "Modules/MeshIO/include/sinew/MeshIO/A.h|<vtkPoints.h>|bad"
+  "Modules/Pipeline/src/A.cpp|\"sinew/MeshIO/VtuFile.h\"|fine"
+  "Modules/Pipeline/src/B.cpp|<nlohmann/json.hpp>|fine"
+  "Modules/Pipeline/src/LevelSetSurface.cpp|<openvdb/openvdb.h>|fine"
+  "Modules/Pipeline/src/C.cpp|\"sinew/LevelSet/LevelSetGrid.h\"|bad"
+  "Modules/Pipeline/src/D.cpp|<openvdb/openvdb.h>|bad"
+  "Modules/Pipeline/include/sinew/Pipeline/A.h|<nlohmann/json.hpp>|bad"
+  "Modules/Pipeline/src/E.cpp|<CLI/CLI.hpp>|bad"
+  "Applications/sinew/a.cpp|<CLI/CLI.hpp>|fine"
+  "Applications/sinew/b.cpp|\"sinew/Pipeline/MeshTissues.h\"|fine"
+  "Applications/sinew/c.cpp|<itkImage.h>|bad")
+
+file(REMOVE_RECURSE ${SCRATCH_DIR})
+set(expected)
+foreach(seed IN LISTS seeds)
+  string(REPLACE "|" ";" seed "${seed}")
+  list(GET seed 0 file)
+  list(GET seed 1 include)
+  list(GET seed 2 verdict)
+  file(WRITE ${SCRATCH_DIR}/${file} "#pragma once\n#  include ${include}  // seeded\n")
+  if(verdict STREQUAL bad)
+    list(APPEND expected ${file})
+  endif()
+endforeach()
+violations(${SCRATCH_DIR} found)
+list(TRANSFORM found REPLACE ": .*" "")
+list(SORT expected)
+list(SORT found)
+if(NOT "${found}" STREQUAL "${expected}")
+  message(FATAL_ERROR "The check itself is broken.\n  expected ${expected}\n  found    ${found}")
+endif()
+
+violations(${SOURCE_DIR} found)
+list(JOIN found "\n  " report)
+if(found)
+  message(FATAL_ERROR "Includes that cross a border (CONVENTIONS.md, section 1):\n  ${report}")
+endif()
