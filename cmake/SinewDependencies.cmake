@@ -1,20 +1,24 @@
-# Every foreign library, found once. The modules name the targets they need.
+# Every foreign library, found once. The modules name the targets they need; the installed package repeats the search.
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(TBB REQUIRED)
+find_package(ZLIB REQUIRED)
 find_package(OpenVDB 10 REQUIRED)
 find_package(nlohmann_json REQUIRED)
-find_package(CLI11 REQUIRED)
 
 set(CMAKE_MESSAGE_LOG_LEVEL WARNING)  # ITK's gdcm notices
 find_package(ITK 5.2 REQUIRED COMPONENTS ITKCommon ITKIOImageBase ITKIONRRD ITKIOMeta ITKIONIFTI)
 unset(CMAKE_MESSAGE_LOG_LEVEL)
 find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel CommonMisc IOXML IOLegacy)
 
-# ITK 5.2 has no usable namespaced targets, and carries an Eigen of its own.
-if(NOT TARGET sinew_itk)
-  add_library(sinew_itk INTERFACE)
-  target_include_directories(sinew_itk SYSTEM INTERFACE $<BUILD_INTERFACE:${ITK_INCLUDE_DIRS}>)
-  target_link_libraries(sinew_itk INTERFACE ${ITK_LIBRARIES} Eigen3::Eigen)
-  target_compile_definitions(sinew_itk INTERFACE ITK_USE_SYSTEM_EIGEN)
-  install(TARGETS sinew_itk EXPORT SinewTargets)
+if(CMAKE_FIND_PACKAGE_NAME STREQUAL "Sinew")
+  return()  # a consumer: the rest is for building Sinew itself
 endif()
+
+find_package(CLI11 REQUIRED)
+
+# ITK 5.2 has no usable namespaced targets, and carries an Eigen of its own.
+add_library(sinew_itk INTERFACE)
+target_include_directories(sinew_itk SYSTEM INTERFACE $<BUILD_INTERFACE:${ITK_INCLUDE_DIRS}>)
+target_link_libraries(sinew_itk INTERFACE ${ITK_LIBRARIES} Eigen3::Eigen)
+target_compile_definitions(sinew_itk INTERFACE ITK_USE_SYSTEM_EIGEN)
+install(TARGETS sinew_itk EXPORT SinewTargets)

@@ -1,0 +1,27 @@
+// Meshes a phantom with an installed Sinew: consumer FOLDER
+#include <exception>
+#include <iostream>
+#include <sinew/MeshIO/VtuFile.h>
+#include <sinew/Pipeline/MeshTissues.h>
+#include <sinew/Segmentation/Phantom.h>
+
+int main(int argc, char** argv) try {
+  if (argc != 2) {
+    std::cerr << "usage: consumer FOLDER\n";
+    return 2;
+  }
+  const std::filesystem::path folder = argv[1];
+  const sinew::Segmentation sphere = sinew::makePhantom("sphere", {.spacing = Eigen::Vector3d(2, 2, 2)});
+  bool complete = true;
+  for (const sinew::TissueReport& report : sinew::meshTissues(sphere, {0}, folder, {.edgeLength = 5})) {
+    complete &= report.status == sinew::TissueStatus::Meshed && report.conditions.good();
+    std::cout << report.name << ": " << report.quality.tets << " tets, " << report.quality.nodes
+              << " nodes\n";
+    const sinew::TetMesh written = sinew::readTetMesh(folder / report.file);
+    complete &= std::ssize(written.tets) == report.quality.tets;
+  }
+  return complete ? 0 : 1;
+} catch (const std::exception& error) {
+  std::cerr << error.what() << '\n';
+  return 1;
+}
