@@ -12,12 +12,13 @@
 namespace sinew {
 
 struct GenerateTetMeshOptions {
-  double edgeLength = 0;        ///< cube size of the lattice at the surface, mm, > 0
-  double maxEdgeLength = 0;     ///< largest cube size deep inside, mm; 0: eight times edgeLength
-  double curvature = 0.7;       ///< refine where cube size * (|k1| + |k2|) exceeds this; 0 switches it off
-  int levels = 0;               ///< largest number of lattice levels; 0: as many as the sizes ask for
-  std::int32_t label = 1;       ///< written to TetMesh::labels
-  std::function<void(std::string_view stage, double fraction)> progress;  ///< called from one thread; may throw to stop
+  double edgeLength = 0;     ///< cube size of the lattice at the surface, mm, > 0
+  double maxEdgeLength = 0;  ///< largest cube size deep inside, mm; 0: eight times edgeLength
+  double curvature = 0.7;    ///< refine where cube size * (|k1| + |k2|) exceeds this; 0 switches it off
+  int levels = 0;            ///< largest number of lattice levels; 0: as many as the sizes ask for
+  std::int32_t label = 1;    ///< written to TetMesh::labels
+  std::function<void(std::string_view stage, double fraction)>
+      progress;  ///< called from one thread; may throw to stop
 };
 
 /// What happened on the way.
@@ -26,17 +27,20 @@ struct GenerateTetMeshReport {
     std::string name;
     double seconds = 0;
   };
-  std::vector<Stage> stages;           ///< lattice, candidate, compression, in this order
-  int repairPasses = 0;                ///< passes of the T1-T3 repair
-  bool repairCapReached = false;       ///< the candidate still had violations: the mesh was refused
-  double maxBoundaryPhi = 0;           ///< largest |phi| at a boundary node, mm
-  double finestCube = 0;               ///< cube size of the finest lattice level used, mm
-  std::int64_t latticeNodes = 0;       ///< nodes of the red-green lattice
+  std::vector<Stage> stages;      ///< lattice, candidate, compression, in this order
+  int repairPasses = 0;           ///< passes of the T1-T3 repair
+  bool repairCapReached = false;  ///< the candidate still had violations: the mesh was refused
+  int retreats = 0;               ///< rounds in which the candidate gave way to bad tets
+  double maxBoundaryPhi = 0;      ///< largest |phi| at a boundary node, mm
+  double finestCube = 0;          ///< cube size of the finest lattice level used, mm
+  std::int64_t latticeNodes = 0;  ///< nodes of the red-green lattice
 };
 
 /// Meshes phi < 0: lattice, red-green hierarchy, candidate, compression (Teran et al. 2005).
-/// The result is the same bits for any number of threads. A shape too small for the lattice gives a mesh without tets.
-/// @throws std::invalid_argument on options out of range; std::runtime_error when no mesh under T1-T3 was found.
+/// The result is the same bits for any number of threads. A shape too small for the lattice gives a mesh
+/// without tets.
+/// @throws std::invalid_argument on options out of range; std::runtime_error when no mesh under T1-T3 was
+/// found.
 TetMesh generateTetMesh(const SignedDistance& phi, const GenerateTetMeshOptions& options,
                         GenerateTetMeshReport* report = nullptr);
 

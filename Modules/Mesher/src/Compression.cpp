@@ -1,0 +1,276 @@
+#include "sinew/Mesher/Compression.h"
+
+#include "ActiveNodes.h"
+#include "GoalMeasure.h"
+#include "NodeStarEnergy.h"
+#include "SurfaceProjection.h"
+
+#include <Eigen/Dense>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sinew {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::size_t kGrain = 128;  // nodes per task
+constexpr double kFirstCap = 4;      // F that the first snap may cost
+constexpr double kCapGrowth = 1.25;  // per round
+constexpr int kFullRounds = 3;       // rounds after which only the surroundings of late nodes go on
+constexpr int kLateRings = 2;
+
+/// One stretch of smooth descent: sweeps on the sum of F^q over the nodes whose worst F is above a threshold.
+struct Descent {
+  int sweeps;
+  int q;
+  double threshold;
+};
+constexpr std::array<Descent, 3> kPolish{{{3, 4, 0.0}, {4, 8, 1.5}, {6, 16, 2.0}}};
+
+constexpr int kFinishSweeps = 16;
+constexpr int kFinishPower = 16;
+constexpr double kFinishAbove = 1.02;  // goal measure above which a tet is worth the last descent
+
+class Compressor {
+ public:
+  Compressor(TetMesh& mesh, const SignedDistance& phi, const CompressionOptions& options,
+             const std::vector<std::uint8_t>& region)
+      : mesh_(mesh),
+        phi_(phi),
+        options_(options),
+        active_(activeNodes(mesh, region.empty() ? movableNodes(mesh) : region)),
+        tolerance_(options.surfaceTolerance * options.edgeLength),
+        project_(phi, 0.5 * tolerance_),
+        level_(active_.size(), 0.0),
+        awake_(active_.size(), 1) {
+    for (std::size_t n = 0; n < active_.size(); ++n) {
+      if (isBoundary(n)) level_[n] = phi.value(position(n));
+    }
+  }
+
+  CompressionReport run() {
+    CompressionReport report;
+    double cap = kFirstCap;
+    for (; report.snapSweeps < options_.snapSweeps; ++report.snapSweeps, cap *= kCapGrowth) {
+      snap(cap);
+      relax(2, 0);
+      relax(2, 0);
+      const std::vector<std::int32_t> late = unsnapped();
+      if (late.empty()) break;
+      if (report.snapSweeps + 1 >= kFullRounds) wakeAround(late);
+    }
+    std::fill(awake_.begin(), awake_.end(), std::uint8_t{1});
+    for (const Descent& descent : kPolish) {
+      for (int sweep = 0; sweep < descent.sweeps; ++sweep) relax(descent.q, descent.threshold);
+    }
+    finish();
+    for (const std::int32_t n : unsnapped()) report.unsnapped.push_back(active_.nodes[n]);
+    return report;
+  }
+
+ private:
+  bool isBoundary(std::size_t n) const { return mesh_.kinds[active_.nodes[n]] == NodeKind::Boundary; }
+  Vector3d& position(std::size_t n) { return mesh_.nodes[active_.nodes[n]]; }
+
+  std::vector<std::int32_t> unsnapped() const {
+    std::vector<std::int32_t> list;
+    for (std::size_t n = 0; n < level_.size(); ++n) {
+      if (std::abs(level_[n]) > tolerance_) list.push_back(static_cast<std::int32_t>(n));
+    }
+    return list;
+  }
+
+  /// Puts all nodes to sleep but those within a few rings of the given ones.
+  void wakeAround(std::vector<std::int32_t> nodes) {
+    std::fill(awake_.begin(), awake_.end(), std::uint8_t{0});
+    for (const std::int32_t n : nodes) awake_[n] = 1;
+    for (int ring = 0; ring < kLateRings; ++ring) {
+      const std::size_t before = nodes.size();
+      for (std::size_t k = 0; k < before; ++k) {
+        for (const StarFaceNodes& face : active_.star(nodes[k])) {
+          for (const std::int32_t v : face) {
+            const std::int32_t other = active_.indexOf[v];
+            if (other < 0 || awake_[other] != 0) continue;
+            awake_[other] = 1;
+            nodes.push_back(other);
+          }
+        }
+      }
+    }
+  }
+
+  /// Calls move(n) for the awake nodes, colour by colour.
+  template <class Move>
+  void forEachNode(const Move& move) {
+    for (const auto& color : active_.colors) {
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, color.size(), kGrain), [&](const auto& range) {
+        for (std::size_t k = range.begin(); k < range.end(); ++k) {
+          if (awake_[color[k]] != 0) move(color[k]);
+        }
+      });
+    }
+  }
+
+  /// Moves boundary nodes towards phi = 0 as far as the cap on F allows.
+  void snap(double cap) {
+    forEachNode([&](std::int32_t n) {
+      if (!isBoundary(n) || std::abs(level_[n]) <= tolerance_) return;
+      for (const double fraction : {1.0, 0.6, 0.3, 0.1}) {
+        const double level = fraction == 1.0 ? 0.0 : (1 - fraction) * level_[n];
+        const std::optional<Vector3d> target = project_(position(n), level);
+        if (!target || starValue(*target, active_.star(n), mesh_.nodes, 1).worst > cap) continue;
+        position(n) = *target;
+        level_[n] = level;
+        return;
+      }
+    });
+  }
+
+  /// One sweep of Newton steps over the nodes whose worst F is above the threshold.
+  void relax(int q, double threshold) {
+    forEachNode([&](std::int32_t n) {
+      if (threshold > 0 && starValue(position(n), active_.star(n), mesh_.nodes, 1).worst <= threshold) return;
+      isBoundary(n) ? slide(n, q) : descend(n, q);
+    });
+  }
+
+  void descend(std::int32_t n, int q) {
+    const StarDerivatives d = starDerivatives(position(n), active_.star(n), mesh_.nodes, q);
+    const Vector3d step = newtonStep<3>(d.hessian, d.gradient);
+    tryStep(n, d.energy, q, [&](double t) { return std::optional<Vector3d>(position(n) + t * step); });
+  }
+
+  /// A step in the tangent plane, then back onto the node's level set.
+  void slide(std::int32_t n, int q) {
+    Eigen::Matrix<double, 3, 2> tangents;
+    if (!tangentPlane(position(n), tangents)) return;
+    const StarDerivatives d = starDerivatives(position(n), active_.star(n), mesh_.nodes, q);
+    const Vector3d step = tangents * newtonStep<2>(tangents.transpose() * d.hessian * tangents,
+                                                   tangents.transpose() * d.gradient);
+    tryStep(n, d.energy, q, [&](double t) { return project_(position(n) + t * step, level_[n]); });
+  }
+
+  bool tangentPlane(const Vector3d& x, Eigen::Matrix<double, 3, 2>& tangents) const {
+    Vector3d normal;
+    phi_.valueAndGradient(x, normal);
+    const double norm = normal.norm();
+    if (norm < 1e-6) return false;
+    tangents.col(0) = (normal / norm).unitOrthogonal();
+    tangents.col(1) = (normal / norm).cross(tangents.col(0));
+    return true;
+  }
+
+  template <int N>
+  static Eigen::Matrix<double, N, 1> newtonStep(const Eigen::Matrix<double, N, N>& hessian,
+                                                const Eigen::Matrix<double, N, 1>& gradient) {
+    const Eigen::LLT<Eigen::Matrix<double, N, N>> factor(hessian);
+    if (factor.info() == Eigen::Success) return -factor.solve(gradient);
+    return -gradient / std::max(hessian.norm(), 1e-300);
+  }
+
+  template <class Target>
+  void tryStep(std::int32_t n, double energy, int q, const Target& target) {
+    for (const double t : {1.0, 0.5, 0.2}) {
+      const std::optional<Vector3d> x = target(t);
+      if (x && starValue(*x, active_.star(n), mesh_.nodes, q).energy < energy) {
+        position(n) = *x;
+        return;
+      }
+    }
+  }
+
+  /// The last descent: on the sum of m^p over the stars of the nodes of tets that miss the goals.
+  void finish() {
+    for (int sweep = 0; sweep < kFinishSweeps; ++sweep) {
+      if (!wakeWorst()) break;
+      forEachNode([&](std::int32_t n) { descendGoal(n); });
+    }
+    std::fill(awake_.begin(), awake_.end(), std::uint8_t{1});
+  }
+
+  bool wakeWorst() {
+    std::fill(awake_.begin(), awake_.end(), std::uint8_t{0});
+    bool any = false;
+    const auto& x = mesh_.nodes;
+    for (const Tet& tet : mesh_.tets) {
+      if (active_.indexOf[tet[0]] < 0 && active_.indexOf[tet[1]] < 0 && active_.indexOf[tet[2]] < 0 &&
+          active_.indexOf[tet[3]] < 0) {
+        continue;
+      }
+      if (goalMeasure(x[tet[3]], x[tet[0]], x[tet[1]], x[tet[2]]) <= kFinishAbove) continue;
+      for (const std::int32_t v : tet) {
+        const std::int32_t n = active_.indexOf[v];
+        if (n < 0) continue;
+        awake_[n] = 1;
+        any = true;
+      }
+    }
+    return any;
+  }
+
+  double goalEnergy(const Vector3d& x, std::int32_t n) const {
+    double energy = 0;
+    for (const auto& [a, b, c] : active_.star(n)) {
+      energy += power(goalMeasure(x, mesh_.nodes[a], mesh_.nodes[b], mesh_.nodes[c]), kFinishPower);
+    }
+    return energy;
+  }
+
+  void descendGoal(std::int32_t n) {
+    const Vector3d x = position(n);
+    const double scale = shortestEdge(n);
+    const double energy = goalEnergy(x, n);
+    Vector3d gradient;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vector3d offset = 1e-4 * scale * Vector3d::Unit(axis);
+      gradient[axis] = goalEnergy(x + offset, n) - goalEnergy(x - offset, n);
+    }
+    if (isBoundary(n)) {
+      Eigen::Matrix<double, 3, 2> tangents;
+      if (!tangentPlane(x, tangents)) return;
+      gradient = (tangents * (tangents.transpose() * gradient)).eval();
+    }
+    const double norm = gradient.norm();
+    if (!(norm > 0) || !std::isfinite(norm)) return;
+    for (double step = 0.16; step > 0.002; step *= 0.5) {
+      const Vector3d moved = x - step * scale / norm * gradient;
+      const std::optional<Vector3d> target =
+          isBoundary(n) ? project_(moved, level_[n]) : std::optional(moved);
+      if (target && goalEnergy(*target, n) < energy) {
+        position(n) = *target;
+        return;
+      }
+    }
+  }
+
+  double shortestEdge(std::int32_t n) {
+    double shortest2 = kInfinity;
+    for (const StarFaceNodes& face : active_.star(n)) {
+      for (const std::int32_t v : face)
+        shortest2 = std::min(shortest2, (mesh_.nodes[v] - position(n)).squaredNorm());
+    }
+    return std::sqrt(shortest2);
+  }
+
+  TetMesh& mesh_;
+  const SignedDistance& phi_;
+  const CompressionOptions& options_;
+  ActiveNodes active_;
+  double tolerance_;
+  SurfaceProjection project_;
+  std::vector<double> level_;        ///< phi at each active boundary node, as it was put there; 0 elsewhere
+  std::vector<std::uint8_t> awake_;  ///< per active node: takes part in the present sweep
+};
+
+}  // namespace
+
+CompressionReport compressOntoSurface(TetMesh& mesh, const SignedDistance& phi,
+                                      const CompressionOptions& options,
+                                      const std::vector<std::uint8_t>& region) {
+  return Compressor(mesh, phi, options, region).run();
+}
+
+}  // namespace sinew

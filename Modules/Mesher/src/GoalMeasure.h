@@ -1,0 +1,38 @@
+#pragma once
+
+#include "NodeStarEnergy.h"
+
+#include <cmath>
+
+namespace sinew {
+
+/// What a mesh is judged by, as one number per tet: at most 1 when the aspect ratio is at most
+/// kGoalAspectRatio and every dihedral angle lies within [30, 130] degrees; infinite when the tet is not
+/// positive.
+///
+///     m = max( AR / 3,  max over the edges of |cos theta - c| / r ),   [c - r, c + r] = [cos 130, cos 30]
+inline constexpr double kGoalAspectRatio = 3;
+
+inline double goalMeasure(const Eigen::Vector3d& x, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                          const Eigen::Vector3d& c) {
+  constexpr double cosMin = -0.6427876096865394, cosMax = 0.8660254037844387;
+  constexpr double centre = 0.5 * (cosMax + cosMin), radius = 0.5 * (cosMax - cosMin);
+  const Eigen::Vector3d ab = b - a, ac = c - a, bc = c - b, ax = x - a, bx = x - b, cx = x - c;
+  // Inward normals of the faces opposite to x, a, b, c; lengths are twice the areas.
+  const std::array<Eigen::Vector3d, 4> n{ab.cross(ac), cx.cross(bx), ax.cross(cx), bx.cross(ax)};
+  const double volume6 = ax.dot(n[0]);
+  if (volume6 <= 0) return kInfinity;
+  std::array<double, 4> area{};
+  for (int f = 0; f < 4; ++f) area[f] = n[f].norm();
+  const double longest2 = std::max({ab.squaredNorm(), ac.squaredNorm(), bc.squaredNorm(), ax.squaredNorm(),
+                                    bx.squaredNorm(), cx.squaredNorm()});
+  const double aspect = std::sqrt(longest2) * std::max({area[0], area[1], area[2], area[3]}) / volume6;
+  double measure = aspect / kGoalAspectRatio;
+  for (const auto& [f, g] : kTetEdges) {
+    const double cosine = -n[f].dot(n[g]) / (area[f] * area[g]);
+    measure = std::max(measure, std::abs(cosine - centre) / radius);
+  }
+  return measure;
+}
+
+}  // namespace sinew

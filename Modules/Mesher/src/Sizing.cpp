@@ -1,0 +1,192 @@
+#include "sinew/Mesher/Sizing.h"
+
+#include "sinew/Mesher/Curvature.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace sinew {
+namespace {
+
+constexpr double kTetRadius = 0.56;       // sqrt(5)/4: circumradius of a BCC tet over its cube size
+constexpr double kCubeRadius = 0.867;     // sqrt(3)/2: half the diagonal of a cube
+constexpr double kSurfaceLayer = 1.0;     // edge lengths on either side of the surface that are uniform
+constexpr double kLipschitzSlack = 1.05;  // a sampled distance may grow a little faster than the distance
+constexpr double kThinDepth = 0.6;        // of one cube size: phi one cube below the surface is no deeper
+constexpr int kMargin = 3;  // cubes of level 0 around the bounds: two that overhang, one that stays whole
+
+/// Level -> cubes of that level that may hold tets within the layer around the surface.
+class NearCubes {
+ public:
+  NearCubes(const LatticePlan& plan, const SignedDistance& phi, double layer) : plan_(plan) {
+    base_ = 0;
+    while (base_ < plan.surfaceLevel && reach(base_, layer) > phi.band()) ++base_;
+    flags_.resize(base_ + 1);
+    fillBase(phi, layer);
+    for (int level = base_; level > 0; --level) fillCoarser(level);
+  }
+  /// Levels 0 .. base() are decided here; on finer ones phi at the centre of a tet tells.
+  int base() const { return base_; }
+
+  /// Whether one of the two cubes that share the tet is near.
+  bool near(int level, const BccTet& tet) const {
+    const std::array<Int3, 4> nodes = bccNodes(tet);
+    // The tet lies in the two cubes whose centres are its odd nodes.
+    return at(level, {nodes[2].x >> 1, nodes[2].y >> 1, nodes[2].z >> 1}) ||
+           at(level, {nodes[3].x >> 1, nodes[3].y >> 1, nodes[3].z >> 1});
+  }
+
+ private:
+  double reach(int level, double layer) const {
+    return kLipschitzSlack * (kCubeRadius * plan_.cubeSize(level) + layer);
+  }
+  Int3 cells(int level) const { return plan_.coarseCells << level; }
+  std::size_t index(int level, Int3 c) const {
+    const Int3 n = cells(level);
+    return (static_cast<std::size_t>(c.z) * n.y + c.y) * n.x + c.x;
+  }
+  bool at(int level, Int3 c) const { return flags_[level][index(level, c)] != 0; }
+
+  void fillBase(const SignedDistance& phi, double layer) {
+    const Int3 n = cells(base_);
+    flags_[base_].assign(static_cast<std::size_t>(n.x) * n.y * n.z, 0);
+    const int shift = plan_.levels - 1 - base_;
+    tbb::parallel_for(0, n.z, [&](int z) {
+      for (int y = 0; y < n.y; ++y) {
+        for (int x = 0; x < n.x; ++x) {
+          const Eigen::Vector3d centre = plan_.frame.position(Int3{2 * x + 1, 2 * y + 1, 2 * z + 1} << shift);
+          flags_[base_][index(base_, {x, y, z})] = std::abs(phi.value(centre)) <= reach(base_, layer);
+        }
+      }
+    });
+  }
+
+  void fillCoarser(int level) {
+    const Int3 n = cells(level - 1);
+    flags_[level - 1].assign(static_cast<std::size_t>(n.x) * n.y * n.z, 0);
+    const Int3 fine = cells(level);
+    for (int z = 0; z < fine.z; ++z) {
+      for (int y = 0; y < fine.y; ++y) {
+        for (int x = 0; x < fine.x; ++x) {
+          if (at(level, {x, y, z})) flags_[level - 1][index(level - 1, {x / 2, y / 2, z / 2})] = 1;
+        }
+      }
+    }
+  }
+
+  const LatticePlan& plan_;
+  int base_ = 0;
+  std::vector<std::vector<std::uint8_t>> flags_;
+};
+
+/// Decides tet by tet, from level 0 downwards.
+class Refiner {
+ public:
+  Refiner(const LatticePlan& plan, const SignedDistance& phi, const SizingOptions& options)
+      : plan_(plan),
+        phi_(phi),
+        options_(options),
+        layer_(kSurfaceLayer * options.edgeLength),
+        nearCubes_(plan, phi, layer_) {}
+
+  /// Appends the tets to be refined below a tet, itself included.
+  void collect(int level, const BccTet& tet, std::vector<std::pair<int, BccTet>>& wanted) const {
+    if (level + 1 >= plan_.levels || !wants(level, tet)) return;
+    wanted.emplace_back(level, tet);
+    for (const BccTet& child : redChildren(tet)) collect(level + 1, child, wanted);
+  }
+
+ private:
+  bool wants(int level, const BccTet& tet) const {
+    if (level <= nearCubes_.base() && !nearCubes_.near(level, tet)) return false;
+    const double cube = plan_.cubeSize(level);
+    const Eigen::Vector3d centre = centreOf(level, tet);
+    const double phi = phi_.value(centre);
+    if (level < plan_.surfaceLevel) {
+      if (level < nearCubes_.base()) return true;
+      return std::abs(phi) <= kLipschitzSlack * (kTetRadius * cube + layer_);
+    }
+    if (std::abs(phi) > kLipschitzSlack * kTetRadius * cube) return false;
+    if (0.5 * cube < options_.minEdgeLength * (1 - 1e-9)) return false;
+    return tooCoarse(cube, centre, phi);
+  }
+
+  /// Curvature and thickness at the point of the surface below the centre of a tet.
+  bool tooCoarse(double cube, const Eigen::Vector3d& centre, double phi) const {
+    Eigen::Vector3d gradient;
+    phi_.valueAndGradient(centre, gradient);
+    const double norm = gradient.norm();
+    if (norm < 1e-6) return options_.thickness > 0;  // on a medial sheet this close to the surface
+    const Eigen::Vector3d normal = gradient / norm;
+    const Eigen::Vector3d foot = centre - phi * normal;
+    if (options_.thickness > 0) {
+      const double depth = (options_.thickness - kThinDepth) * cube;
+      if (phi_.value(foot - depth * normal) > -kThinDepth * cube) return true;
+    }
+    return options_.curvature > 0 &&
+           cube * principalCurvatures(phi_, foot, phi_.resolution()).magnitude() > options_.curvature;
+  }
+
+  Eigen::Vector3d centreOf(int level, const BccTet& tet) const {
+    const std::array<Int3, 4> nodes = bccNodes(tet);
+    const Int3 sum = (nodes[0] + nodes[1] + nodes[2] + nodes[3]) << (plan_.levels - 1 - level);
+    return plan_.frame.origin + 0.25 * plan_.frame.halfCube * Eigen::Vector3d(sum.x, sum.y, sum.z);
+  }
+
+  const LatticePlan& plan_;
+  const SignedDistance& phi_;
+  const SizingOptions& options_;
+  double layer_;
+  NearCubes nearCubes_;
+};
+
+}  // namespace
+
+LatticePlan planLattice(const SignedDistance& phi, const SizingOptions& options) {
+  int coarser = 0, finer = 0;
+  while (options.edgeLength * (2 << coarser) <= options.maxEdgeLength * (1 + 1e-9)) ++coarser;
+  while (options.edgeLength / (2 << finer) >= options.minEdgeLength * (1 - 1e-9) && finer < 8) ++finer;
+  if (options.curvature <= 0 && options.thickness <= 0) finer = 0;
+  if (options.levels > 0) {
+    coarser = std::min(coarser, options.levels - 1);
+    finer = std::min(finer, options.levels - 1 - coarser);
+  }
+
+  LatticePlan plan;
+  plan.levels = coarser + 1 + finer;
+  plan.surfaceLevel = coarser;
+  plan.frame.halfCube = 0.5 * options.edgeLength / (1 << finer);
+  const double coarse = options.edgeLength * (1 << coarser);
+  const Eigen::AlignedBox3d box = phi.bounds();
+  for (int axis = 0; axis < 3; ++axis) {
+    const int cells = static_cast<int>(std::ceil(box.sizes()[axis] / coarse)) + 2 * kMargin;
+    plan.coarseCells[axis] = cells;
+    plan.frame.origin[axis] = box.center()[axis] - 0.5 * coarse * cells;
+  }
+  return plan;
+}
+
+void refineToSize(RedGreenLattice& lattice, const LatticePlan& plan, const SignedDistance& phi,
+                  const SizingOptions& options) {
+  const Refiner refiner(plan, phi, options);
+  const Int3 n = plan.coarseCells;
+  std::vector<std::vector<std::pair<int, BccTet>>> wanted(n.z);
+  tbb::parallel_for(1, n.z - 1, [&](int z) {
+    for (int y = 1; y < n.y - 1; ++y) {
+      for (int x = 1; x < n.x - 1; ++x) {
+        for (const BccTet& tet : RedGreenLattice::coarseTets({x, y, z})) refiner.collect(0, tet, wanted[z]);
+      }
+    }
+  });
+  for (const auto& layer : wanted) {
+    for (const auto& [level, tet] : layer) lattice.refine(level, tet);
+  }
+  lattice.close();
+}
+
+}  // namespace sinew
