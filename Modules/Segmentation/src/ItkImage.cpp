@@ -75,12 +75,13 @@ std::vector<std::int64_t> sizes(const ImageIO& io) {
   return result;
 }
 
-void requireLabels(const fs::path& file, const ImageIO& io, bool layered) {
+void requireLabels(const fs::path& file, const ImageIO& io, bool list, bool layered) {
   using Pixel = itk::IOPixelEnum;
   switch (io.GetPixelType()) {
     case Pixel::SCALAR:
     case Pixel::VECTOR:
-      if (io.GetNumberOfComponents() != 1 && !layered) refuseComponents(file, "vectors");
+      if (io.GetNumberOfComponents() != 1 && !layered)
+        refuseComponents(file, list ? "lists of values, perhaps a time series" : "vectors");
       return;
     case Pixel::RGB:
     case Pixel::RGBA:
@@ -180,7 +181,7 @@ LabelImage readNrrd(const fs::path& file, const ImageHeader& header, bool layere
                            "); correct it or export the segmentation again");
   }
   requireVolume(file, sizes(*io));
-  requireLabels(file, *io, layered);
+  requireLabels(file, *io, header.list, layered);
   LabelImage image{.geometry = geometry(file, *io), .layers = {}};
   try {
     image.layers = readLayers(file, *io, image.geometry);

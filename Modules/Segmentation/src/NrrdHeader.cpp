@@ -170,14 +170,16 @@ std::optional<ImagePayload> payload(const fs::path& file, const NrrdFields& head
 
 ImageHeader readNrrdHeader(const fs::path& file) {
   const NrrdFields fields = readFields(file);
+  const auto shape = sizes(file, fields);
+  const std::uint64_t bytes = volumeBytes(file, shape, bytesPerValue(file, fields));
   const std::string lowerKinds = text::lower(field(fields, {"kinds"}));
   const auto kinds = text::words(lowerKinds);
   checkSpacings(file, fields, kinds);
   checkDirections(file, fields);
-  ImageHeader header{.format = ImageFormat::Nrrd, .keys = fields.keys};
-  header.list = std::ranges::count(kinds, "list") == 1;
-  header.payload = payload(file, fields, volumeBytes(file, sizes(file, fields), bytesPerValue(file, fields)));
-  return header;
+  return {.format = ImageFormat::Nrrd,
+          .keys = fields.keys,
+          .list = std::ranges::count(kinds, "list") == 1,
+          .payload = payload(file, fields, bytes)};
 }
 
 }  // namespace sinew

@@ -57,7 +57,9 @@ const VoxelType& smallestType(const Segmentation& segmentation) {
 }
 
 std::string formatVector(const Eigen::Vector3d& v) {
-  return "(" + text::format(v.x()) + "," + text::format(v.y()) + "," + text::format(v.z()) + ")";
+  std::string result = "(";
+  for (int axis = 0; axis < 3; ++axis) result.append(axis ? "," : "").append(text::format(v[axis]));
+  return result.append(")");
 }
 
 std::string escape(std::string_view value) {
@@ -82,15 +84,20 @@ std::string nrrdHeader(const Segmentation& segmentation, const VoxelType& type) 
     header.append(name).append(": ").append(value).append("\n");
   };
   std::string sizes, directions;
+  if (list) {
+    sizes = std::to_string(layers) + " ";
+    directions = "none ";
+  }
   for (int axis = 0; axis < 3; ++axis) {
-    sizes += " " + std::to_string(geometry.size[axis]);
-    directions += " " + formatVector(geometry.direction.col(axis) * geometry.spacing[axis]);
+    const char* between = axis ? " " : "";
+    sizes.append(between).append(std::to_string(geometry.size[axis]));
+    directions.append(between).append(formatVector(geometry.direction.col(axis) * geometry.spacing[axis]));
   }
   field("type", std::string(type.name));
   field("dimension", list ? "4" : "3");
   field("space", "left-posterior-superior");
-  field("sizes", (list ? std::to_string(layers) : "") + sizes.substr(list ? 0 : 1));
-  field("space directions", (list ? "none" : "") + directions.substr(list ? 0 : 1));
+  field("sizes", sizes);
+  field("space directions", directions);
   field("kinds", list ? "list domain domain domain" : "domain domain domain");
   if (type.bytes > 1) field("endian", "little");
   field("encoding", "gzip");
