@@ -62,8 +62,7 @@ double sigmaAlong(double smoothingVoxels, double spacing, double h) {
 Plan makePlan(const ImageGeometry& geometry, const LevelSetFromLabelsOptions& options) {
   Plan plan;
   const Eigen::Vector3d& spacing = geometry.spacing;
-  plan.h = options.gridSpacing > 0 ? options.gridSpacing
-                                   : std::max(spacing.minCoeff(), 0.5 * geometry.meanSpacing());
+  plan.h = options.gridSpacing > 0 ? options.gridSpacing : defaultGridSpacing(geometry);
   int thickest = 2;
   plan.thick = spacing.maxCoeff(&thickest) >= options.thickSliceRatio * spacing.minCoeff();
   if (plan.thick) plan.lastAxis = thickest;
@@ -186,7 +185,18 @@ void stampVoxels(DenseField& field, const LabelCrop& crop, const GridPlacement& 
       }
 }
 
+/// The offset that gives a signed distance the wanted volume; it never takes more than half of the depth.
+double volumeOffset(const DenseField& phi, const Eigen::Vector3d& spacing, double volume) {
+  const double largest = kLargestOffsetVoxels * spacing.minCoeff();
+  const double depth = -*std::min_element(phi.values.begin(), phi.values.end());
+  return volumeKeepingLevel(phi, spacing, volume, -std::min(largest, depth / 2), largest);
+}
+
 }  // namespace
+
+double defaultGridSpacing(const ImageGeometry& geometry) {
+  return std::max(geometry.spacing.minCoeff(), 0.5 * geometry.meanSpacing());
+}
 
 LevelSet levelSetFromLabels(const Segmentation& segmentation, const Tissue& tissue,
                             const LevelSetFromLabelsOptions& options, LevelSetFromLabelsReport* report) {
@@ -215,11 +225,7 @@ LevelSet levelSetFromLabels(const Segmentation& segmentation, const Tissue& tiss
   const Eigen::Vector3d spacing = Eigen::Vector3d::Constant(plan.h);
   fastMarching(phi, spacing, plan.reach);
   const double volume = static_cast<double>(tissue.voxels) * segmentation.geometry.voxelVolume();
-  const double depth = -*std::min_element(phi.values.begin(), phi.values.end());
-  const double offset =
-      options.smoothingVoxels > 0
-          ? volumeKeepingLevel(phi, spacing, volume, std::min(kLargestOffsetVoxels * plan.h, depth / 2))
-          : 0;
+  const double offset = options.smoothingVoxels > 0 ? volumeOffset(phi, spacing, volume) : 0;
   LevelSet result = levelSetFromField({phi, place.frame, plan.h, options.bandVoxels * plan.h}, offset);
   if (report != nullptr) *report = {iso, plan.thick, volume, levelSetVolume(result)};
   return result;

@@ -37,9 +37,14 @@ class StageClock {
   std::chrono::steady_clock::time_point started_;
 };
 
+constexpr double kBandEdges = 2;  // how far from the surface phi must be exact
+
 SizingOptions sizingOptions(const SignedDistance& phi, const GenerateTetMeshOptions& options) {
   if (!(options.edgeLength > 0) || !std::isfinite(options.edgeLength)) {
     throw std::invalid_argument("generateTetMesh: edgeLength must be a length above 0 mm");
+  }
+  if (phi.band() < kBandEdges * options.edgeLength) {
+    throw std::invalid_argument("generateTetMesh: phi must be known up to two edge lengths from its surface");
   }
   SizingOptions sizing;
   sizing.edgeLength = options.edgeLength;

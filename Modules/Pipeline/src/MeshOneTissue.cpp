@@ -59,6 +59,17 @@ std::string unsoundness(const MeshQuality& quality, const MeshConditions& condit
   return text;
 }
 
+/// The mesher looks for the surface up to two edge lengths away; samples much finer than the lattice buy
+/// nothing.
+LevelSetFromLabelsOptions levelSetOptions(const ImageGeometry& geometry, double edgeLength,
+                                          LevelSetFromLabelsOptions options) {
+  constexpr double kBandEdges = 2.1, kSamplesPerEdge = 8;
+  if (options.gridSpacing <= 0)
+    options.gridSpacing = std::max(defaultGridSpacing(geometry), edgeLength / kSamplesPerEdge);
+  options.bandVoxels = std::max(options.bandVoxels, kBandEdges * edgeLength / options.gridSpacing);
+  return options;
+}
+
 /// The steps of one tissue, with what they share.
 class TissueRun {
  public:
@@ -101,7 +112,9 @@ class TissueRun {
   /// The mesh in LPS; leaves the level set behind for measure().
   TetMesh generate() {
     advance("level set", 0);
-    LevelSet levelSet = levelSetFromLabels(segmentation_, tissue_, options_.levelSet, &volumes_);
+    LevelSet levelSet = levelSetFromLabels(
+        segmentation_, tissue_, levelSetOptions(segmentation_.geometry, job_.sizes.edge, options_.levelSet),
+        &volumes_);
     frame_ = levelSet.frame;
     surface_ = std::make_unique<LevelSetSurface>(levelSet);
     levelSet.grid.reset();

@@ -18,10 +18,12 @@ double halfSpaceFraction(double distance, const Eigen::Vector3d& normal, const E
 /// @return mm^3.  Cost: O(samples), in parallel; the same bits for any number of threads.
 double fieldVolume(const DenseField& phi, const Eigen::Vector3d& spacing, double level = 0);
 
-/// The level with fieldVolume(phi, spacing, level) = volume, searched within +-limit by the secant rule; the
-/// best one found when the search ends before it is met to 1e-5.
-/// @param phi  a signed distance, exact at least within limit + one voxel's diagonal of the surface
+/// The level in [lowest, highest] with fieldVolume(phi, spacing, level) = volume, by the secant rule from
+/// level 0; the best one found when the search ends before the volume is met to 1e-5.
+/// @param phi  a signed distance, exact at least one voxel's diagonal beyond the two bounds
+/// @param lowest,highest  mm, lowest <= 0 <= highest
 /// @return mm.  Cost: a few times fieldVolume.
-double volumeKeepingLevel(const DenseField& phi, const Eigen::Vector3d& spacing, double volume, double limit);
+double volumeKeepingLevel(const DenseField& phi, const Eigen::Vector3d& spacing, double volume, double lowest,
+                          double highest);
 
 }  // namespace sinew

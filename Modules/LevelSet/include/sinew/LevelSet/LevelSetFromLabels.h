@@ -20,6 +20,10 @@ struct LevelSetFromLabelsReport {
   double levelSetVolume = 0;       ///< volume of phi < 0, mm^3
 };
 
+/// Spacing of the level set where the options leave it open: the smallest image spacing, but not below half a voxel
+/// (cube root of its volume), mm.
+double defaultGridSpacing(const ImageGeometry& geometry);
+
 /// Turns the voxels of one tissue into a signed distance: crop with a margin, Gauss with the iso value that keeps the
 /// label's volume (or slice-wise 2-D distances and Catmull-Rom across thick slices), resampling to an isotropic grid,
 /// second-order narrow-band fast marching.
