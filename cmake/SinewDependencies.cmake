@@ -2,10 +2,9 @@
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(TBB REQUIRED)
 find_package(ZLIB REQUIRED)
-find_package(OpenVDB 10 REQUIRED)
 find_package(nlohmann_json REQUIRED)
-
-set(CMAKE_MESSAGE_LOG_LEVEL WARNING)  # ITK's gdcm notices
+set(CMAKE_MESSAGE_LOG_LEVEL WARNING)  # notices of Imath and gdcm about parts that nobody needs
+find_package(OpenVDB 10 REQUIRED)
 find_package(ITK 5.2 REQUIRED COMPONENTS ITKCommon ITKIOImageBase ITKIONRRD ITKIOMeta ITKIONIFTI)
 unset(CMAKE_MESSAGE_LOG_LEVEL)
 find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel CommonMisc IOXML IOLegacy)
@@ -18,7 +17,7 @@ find_package(CLI11 REQUIRED)
 
 # ITK 5.2 has no usable namespaced targets, and carries an Eigen of its own.
 add_library(sinew_itk INTERFACE)
-target_include_directories(sinew_itk SYSTEM INTERFACE $<BUILD_INTERFACE:${ITK_INCLUDE_DIRS}>)
+target_include_directories(sinew_itk SYSTEM INTERFACE "$<BUILD_INTERFACE:${ITK_INCLUDE_DIRS}>")
 target_link_libraries(sinew_itk INTERFACE ${ITK_LIBRARIES} Eigen3::Eigen)
 target_compile_definitions(sinew_itk INTERFACE ITK_USE_SYSTEM_EIGEN)
 install(TARGETS sinew_itk EXPORT SinewTargets)
