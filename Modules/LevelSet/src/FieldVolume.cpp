@@ -88,8 +88,8 @@ double fieldVolume(const DenseField& phi, const Eigen::Vector3d& spacing, double
   return voxels * spacing.prod();
 }
 
-double volumeKeepingLevel(const DenseField& phi, const Eigen::Vector3d& spacing, double volume,
-                          double limit) {
+double volumeKeepingLevel(const DenseField& phi, const Eigen::Vector3d& spacing, double volume, double lowest,
+                          double highest) {
   constexpr int kSteps = 6;
   constexpr double kMet = 1e-5;
   double a = 0, missA = fieldVolume(phi, spacing, a) - volume;
@@ -97,7 +97,7 @@ double volumeKeepingLevel(const DenseField& phi, const Eigen::Vector3d& spacing,
   double best = a, leastMiss = std::abs(missA);
   // The first step takes the volume for a sphere's: dV = 4 pi R^2 dR; the secant corrects a wrong area.
   const double area = std::cbrt(36 * 3.14159265358979 * volume * volume);
-  double b = std::clamp(-missA / area, -limit, limit);
+  double b = std::clamp(-missA / area, lowest, highest);
   for (int step = 0; step < kSteps; ++step) {
     const double missB = fieldVolume(phi, spacing, b) - volume;
     if (std::abs(missB) < leastMiss) {
@@ -105,7 +105,7 @@ double volumeKeepingLevel(const DenseField& phi, const Eigen::Vector3d& spacing,
       leastMiss = std::abs(missB);
     }
     if (leastMiss <= kMet * volume || missA == missB) break;
-    const double next = std::clamp(b - missB * (b - a) / (missB - missA), -limit, limit);
+    const double next = std::clamp(b - missB * (b - a) / (missB - missA), lowest, highest);
     a = b;
     missA = missB;
     b = next;

@@ -21,7 +21,8 @@ struct ChangingPiece {
 
 class GapBalancer {
  public:
-  GapBalancer(SliceGap& gap, double rounding) : gap_(gap), rounding_(rounding), seen_(gap.lower.size(), 0) {}
+  GapBalancer(SliceGap& gap, const float* before, const float* after, double rounding)
+      : gap_(gap), before_(before), after_(after), rounding_(rounding), seen_(gap.lower.size(), 0) {}
 
   void run() {
     for (std::size_t p = 0; p < gap_.lower.size(); ++p) {
@@ -74,11 +75,28 @@ class GapBalancer {
     return ((lower(p) < 0) == inside ? gap_.lower : gap_.upper)[static_cast<std::size_t>(p)];
   }
 
-  /// Ends a piece half way on average: with the depth s = min(|d|, rounding) below the rim and a constant c
-  /// on the other slice the surface is at the height s / (s + c) of the gap; c makes the mean height one
-  /// half.
+  /// Mean height of a cap, as a part of the gap: half of it, what the voxels say, when the contour does not
+  /// change towards the cap. When it shrinks, the end is that of the paraboloid through the last two
+  /// contours,
+  ///     height = s^2 / (t^2 - s^2)  gaps,  half of it on average,
+  /// with s and t the depths of the piece's deepest pixel on its own slice and on the one before.
+  double capHeight(const ChangingPiece& piece, bool tissue) {
+    constexpr double kLeast = 0.1, kMost = 0.5;
+    int deepest = piece.pixels.front();
+    for (const int p : piece.pixels)
+      if (std::abs(distanceOn(p, tissue)) > std::abs(distanceOn(deepest, tissue))) deepest = p;
+    const bool onLower = (lower(deepest) < 0) == tissue;
+    const float before = (onLower ? before_ : after_)[deepest];
+    const double own = distanceOn(deepest, tissue);
+    const double s2 = own * own, t2 = (before < 0) == (own < 0) ? double{before} * before : 0;
+    return t2 <= s2 ? kMost : std::clamp(0.5 * s2 / (t2 - s2), kLeast, kMost);
+  }
+
+  /// Ends a piece: with the depth s = min(|d|, rounding) below the rim and a constant c on the other slice
+  /// the surface is at the height s / (s + c) of the gap; c is chosen for the mean height.
   /// @param tissue  the piece is tissue without counterpart; else it is a hole without one
   void capPiece(const ChangingPiece& piece, bool tissue) {
+    const double height = capHeight(piece, tissue);
     std::vector<double> depth;
     for (const int p : piece.pixels)
       depth.push_back(std::min<double>(std::abs(distanceOn(p, tissue)), rounding_));
@@ -90,12 +108,12 @@ class GapBalancer {
     double low = 1e-4 * rounding_, high = 1e2 * rounding_;
     for (int step = 0; step < 30; ++step) {
       const double middle = std::sqrt(low * high);
-      (meanHeight(middle) > 0.5 ? low : high) = middle;
+      (meanHeight(middle) > height ? low : high) = middle;
     }
     const auto opposite = static_cast<float>(std::sqrt(low * high));
+    const float sign = tissue ? -1.0F : 1.0F;
     for (std::size_t n = 0; n < piece.pixels.size(); ++n) {
       const int p = piece.pixels[n];
-      const float sign = tissue ? -1.0F : 1.0F;
       distanceOn(p, tissue) = sign * static_cast<float>(depth[n]);
       distanceOn(p, !tissue) = -sign * opposite;
       gap_.limited[static_cast<std::size_t>(p)] = 1;
@@ -150,6 +168,7 @@ class GapBalancer {
   }
 
   SliceGap& gap_;
+  const float *before_, *after_;
   double rounding_;
   std::vector<std::uint8_t> seen_;
 };
@@ -163,6 +182,8 @@ SliceGap::SliceGap(const float* lowerSlice, const float* upperSlice, int nx_, in
       upper(upperSlice, upperSlice + std::ptrdiff_t{nx_} * ny_),
       limited(lower.size(), 0) {}
 
-void SliceGap::balance(double rounding) { GapBalancer(*this, rounding).run(); }
+void SliceGap::balance(const float* before, const float* after, double rounding) {
+  GapBalancer(*this, before, after, rounding).run();
+}
 
 }  // namespace sinew

@@ -13,8 +13,9 @@ struct SliceGap {
   std::vector<std::uint8_t> limited;  ///< 1 where a value was changed: interpolate linearly there
 
   SliceGap(const float* lowerSlice, const float* upperSlice, int nx, int ny);
+  /// @param before,after  the slices below and above the gap's own
   /// @param rounding  depth from the rim beyond which a cap is flat, mm
-  void balance(double rounding);
+  void balance(const float* before, const float* after, double rounding);
 };
 
 }  // namespace sinew

@@ -26,37 +26,37 @@ float keepSign(float cubic, float linear, float b, float c) {
   return linear < 0 ? std::min(cubic, 0.5F * linear) : std::max(cubic, 0.5F * linear);
 }
 
-/// Fills the planes of one gap; positions [first, last) lie in it.
+/// Fills the planes between slices k and k + 1.
 class GapPlanes {
  public:
   GapPlanes(const DenseField& slices, int k, double rounding)
-      : slices_(slices),
-        k_(k),
-        gap_(slices.row(0, k), slices.row(0, k + 1), slices.size.x(), slices.size.y()) {
-    gap_.balance(rounding);
+      : k_(k),
+        before_(slices.row(0, std::max(k - 1, 0))),
+        lower_(slices.row(0, k)),
+        upper_(slices.row(0, k + 1)),
+        after_(slices.row(0, std::min(k + 2, slices.size.z() - 1))),
+        gap_(lower_, upper_, slices.size.x(), slices.size.y()) {
+    gap_.balance(before_, after_, rounding);
   }
 
   void fill(double position, float limit, float* plane) const {
-    const int last = slices_.size.z() - 1;
     const auto t = static_cast<float>(position - k_);
     const CubicWeights cubic = cubicWeights(position - k_);
-    const float *before = slices_.row(0, std::max(k_ - 1, 0)), *lower = slices_.row(0, k_),
-                *upper = slices_.row(0, k_ + 1), *after = slices_.row(0, std::min(k_ + 2, last));
     std::array<float, 4> w;
     for (std::size_t s = 0; s < 4; ++s) w[s] = static_cast<float>(cubic.value[s]);
     for (std::size_t p = 0; p < gap_.lower.size(); ++p) {
-      const float b = gap_.lower[p], c = gap_.upper[p], linear = b + t * (c - b);
-      float value = linear;
+      const float b = gap_.lower[p], c = gap_.upper[p];
+      float value = b + t * (c - b);
       if (!gap_.limited[p])
         value =
-            keepSign(w[0] * before[p] + w[1] * lower[p] + w[2] * upper[p] + w[3] * after[p], linear, b, c);
+            keepSign(w[0] * before_[p] + w[1] * lower_[p] + w[2] * upper_[p] + w[3] * after_[p], value, b, c);
       plane[p] = std::clamp(value, -limit, limit);
     }
   }
 
  private:
-  const DenseField& slices_;
   int k_;
+  const float *before_, *lower_, *upper_, *after_;
   SliceGap gap_;
 };
 
