@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <fcntl.h>
 #include <fstream>
 #include <stdexcept>
 #include <unistd.h>
@@ -52,12 +53,16 @@ fs::path existingAncestor(fs::path folder) {
   return folder;
 }
 
+/// Tries it out: what the permissions say is not the whole truth (read-only file systems, root).
 void checkWritable(const fs::path& folder) {
   const fs::path ancestor = existingAncestor(folder.empty() ? fs::path(".") : folder);
   if (!fs::is_directory(ancestor)) refuse(ancestor, "is not a folder; choose another output");
-  if (access(ancestor.c_str(), W_OK | X_OK) != 0)
+  const OutputFile probe(ancestor / "probe");
+  const int descriptor = open(probe.temporary().c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (descriptor < 0)
     refuse(ancestor,
            "the folder is not writable (" + std::string(std::strerror(errno)) + "); choose another output");
+  close(descriptor);
 }
 
 }  // namespace

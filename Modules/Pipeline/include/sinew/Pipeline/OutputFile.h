@@ -37,7 +37,7 @@ void writeTextFile(const std::filesystem::path& file, const std::string& text);
 void removeTemporaryFiles() noexcept;
 
 /// Checks before any computing that a file can be written: its folder, existing or still to be made, is
-/// writable, and the file is not there unless `force`. Creates nothing.
+/// writable, and the file is not there unless `force`. Leaves nothing behind.
 /// @throws std::runtime_error naming the file, what is wrong and what to do.
 void checkOutputFile(const std::filesystem::path& file, bool force);
 

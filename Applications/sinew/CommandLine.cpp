@@ -1,0 +1,94 @@
+#include "CommandLine.h"
+
+#include "sinew/Pipeline/OutputFile.h"
+#include "sinew/Pipeline/Report.h"
+
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+
+#include <algorithm>
+#include <iostream>
+
+namespace sinew {
+
+CommandLine::CommandLine(const std::string& command, const std::string& description)
+    : app(description, "sinew " + command) {
+  app.set_help_flag();  // it comes back with the common options, below the command's own
+  app.allow_config_extras(CLI::config_extras_mode::error);
+  app.get_formatter()->column_width(32);
+}
+
+void CommandLine::addCommonOptions() {
+  CLI::Option* options[]{
+      app.add_option("--threads", common.threads, "threads; default all processors")->check(atLeast(1)),
+      app.add_option("--json", common.json,
+                     "write the machine-readable result to FILE, or to standard output for -")
+          ->type_name("FILE|-"),
+      app.add_flag("--quiet", common.quiet, "nothing on standard error but failures"),
+      app.add_flag("--verbose", common.verbose, "a line on standard error for every step"),
+      app.add_flag("--force", common.force, "replace existing outputs"),
+      app.set_config("--config", "", "read options from FILE, with lines like `edge-length = 1.5`")
+          ->type_name("FILE"),
+      app.set_version_flag("--version", std::string("sinew ") + version(), "show the version"),
+      app.set_help_flag("-h,--help", "show this help"),
+  };
+  for (CLI::Option* option : options) option->group("Common options");
+}
+
+CLI::Validator CommandLine::atLeast(double least) {
+  const auto check = [least](std::string& text) -> std::string {
+    double value = 0;
+    if (CLI::detail::lexical_cast(text, value) && value >= least) return {};
+    return "'" + text + "' is not a number from " + CLI::detail::to_string(least) + " on";
+  };
+  return CLI::Validator(check, "");
+}
+
+CLI::Option* CommandLine::addLength(const std::string& flags, Length& length,
+                                    const std::string& description) {
+  const auto parse = [&length](const std::string& text) {
+    try {
+      length = parseLength(text);
+    } catch (const std::invalid_argument& error) {
+      throw CLI::ValidationError(error.what());
+    }
+  };
+  return app.add_option_function<std::string>(flags, parse, description)
+      ->type_name("LENGTH")
+      ->default_str(toString(length));
+}
+
+int CommandLine::run(const std::vector<std::string>& arguments, const std::function<int()>& action) {
+  addCommonOptions();
+  try {
+    app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 takes them in reverse
+  } catch (const CLI::Success& request) {
+    return app.exit(request);
+  } catch (const CLI::ConfigError& error) {
+    throw CLI::ConfigError(app.get_config_ptr()->as<std::string>() + ": " + error.what(),
+                           CLI::ExitCodes::ConfigError);
+  }
+  if (!common.json.empty() && !common.jsonOnStdout()) checkOutputFile(common.json, common.force);
+  const int threads = common.threads > 0 ? common.threads : tbb::info::default_concurrency();
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(threads));
+  return action();
+}
+
+std::ostream* CommandLine::tables() const {
+  if (!common.jsonOnStdout()) return &std::cout;
+  return common.quiet ? nullptr : &std::cerr;
+}
+
+void CommandLine::writeJson(const std::string& document) const {
+  if (common.jsonOnStdout())
+    std::cout << document;
+  else if (!common.json.empty())
+    writeTextFile(common.json, document);
+}
+
+int threadCount() {
+  return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
+
+}  // namespace sinew

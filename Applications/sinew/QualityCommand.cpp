@@ -1,0 +1,121 @@
+#include "CommandLine.h"
+#include "TextTable.h"
+#include "commands.h"
+#include "sinew/Pipeline/Report.h"
+#include "sinew/Segmentation/ReadSegmentation.h"
+
+namespace sinew {
+namespace {
+
+struct QualityCommand {
+  std::vector<std::string> meshes;
+  std::string reference, tissue;
+  ReadSegmentationOptions reading;
+  LevelSetFromLabelsOptions levelSet;
+};
+
+std::vector<MeshAssessment> assess(const QualityCommand& command) {
+  std::vector<MeshAssessment> assessments;
+  if (command.reference.empty()) {
+    for (const std::string& mesh : command.meshes) assessments.push_back(assessMesh(mesh));
+    return assessments;
+  }
+  const Segmentation reference = readSegmentation(command.reference, command.reading);
+  for (const std::string& mesh : command.meshes)
+    assessments.push_back(assessMesh(mesh, reference, command.tissue, command.levelSet));
+  return assessments;
+}
+
+TextTable::Cell violations(std::int64_t count) {
+  return {std::to_string(count), count > 0 ? Tone::Bad : Tone::Plain};
+}
+
+TextTable qualityTable(const std::vector<MeshAssessment>& assessments) {
+  TextTable table({{"mesh", Align::Left},
+                   {"tets"},
+                   {"nodes"},
+                   {"max AR"},
+                   {"mean AR"},
+                   {"dihedral, deg"},
+                   {"edges"},
+                   {"inverted"},
+                   {"T1"},
+                   {"T2"},
+                   {"T3"},
+                   {"components"},
+                   {"Euler"}});
+  for (const MeshAssessment& mesh : assessments) {
+    const MeshQuality& quality = mesh.quality;
+    const MeshConditions& conditions = mesh.conditions;
+    table.add({mesh.file, grouped(quality.tets), grouped(quality.nodes), fixed(quality.maxAspectRatio, 2),
+               fixed(quality.meanAspectRatio, 2),
+               fixed(quality.minDihedralDeg, 1) + " - " + fixed(quality.maxDihedralDeg, 1),
+               fixed(quality.maxOverMinEdge, 1), violations(quality.inverted),
+               violations(conditions.nonmanifoldEdges + conditions.nonmanifoldNodes),
+               violations(conditions.tetsWithFourBoundaryNodes),
+               violations(conditions.interiorEdgesBetweenBoundaryNodes +
+                          conditions.interiorFacesWithThreeBoundaryNodes),
+               std::to_string(mesh.topology.components), std::to_string(mesh.topology.eulerCharacteristic)});
+  }
+  return table;
+}
+
+TextTable fidelityTable(const std::vector<MeshAssessment>& assessments) {
+  TextTable table({{"mesh", Align::Left},
+                   {"tissue", Align::Left},
+                   {"volume, mm^3"},
+                   {"of label, %"},
+                   {"Dice"},
+                   {"surface rms, mm"},
+                   {"max, mm"},
+                   {"lost pieces"},
+                   {"mm^3"}});
+  for (const MeshAssessment& mesh : assessments) {
+    const Fidelity& fidelity = *mesh.fidelity;
+    table.add({mesh.file, mesh.tissue, fixed(fidelity.volume, 1),
+               fixed(100 * fidelity.volume / fidelity.labelVolume, 2), fixed(fidelity.dice, 4),
+               fixed(fidelity.surfaceRms, 4), fixed(fidelity.surfaceMax, 4),
+               std::to_string(mesh.lost.components), fixed(mesh.lost.volume, 2)});
+  }
+  return table;
+}
+
+int quality(const CommandLine& line, const QualityCommand& command) {
+  const std::vector<MeshAssessment> assessments = assess(command);
+  line.writeJson(toJson(assessments));
+  if (line.common.jsonOnStdout()) return 0;
+  qualityTable(assessments).print(std::cout);
+  if (command.reference.empty()) return 0;
+  std::cout << '\n';
+  fidelityTable(assessments).print(std::cout);
+  return 0;
+}
+
+}  // namespace
+
+int runQuality(const std::vector<std::string>& arguments) {
+  CommandLine line("quality",
+                   "Measures tetrahedral meshes, and compares them with the tissues they were made from.");
+  QualityCommand command;
+  CLI::App& app = line.app;
+  app.add_option("MESH", command.meshes, "meshes: .vtu, .vtk")->required();
+  CLI::Option* reference =
+      app.add_option("--reference", command.reference, "segmentation to compare with")->type_name("INPUT");
+  app.add_option("--tissue,--label", command.tissue,
+                 "tissue of the reference; default: by file name, else by label")
+      ->type_name("NAME|LABEL")
+      ->needs(reference);
+  app.add_option("--lut", command.reading.lut, "colour table with the names of the labels")
+      ->type_name("FILE")
+      ->needs(reference);
+  app.add_option("--smoothing", command.levelSet.smoothingVoxels,
+                 "standard deviation of the Gauss on the labels, voxels, as it was for the mesh")
+      ->check(CommandLine::atLeast(0))
+      ->capture_default_str();
+  app.footer(
+      "T1: boundary edges and nodes where the boundary is no manifold; T2: tets with four boundary nodes;\n"
+      "T3: interior edges and faces with all nodes on the boundary; edges: longest over shortest.");
+  return line.run(arguments, [&] { return quality(line, command); });
+}
+
+}  // namespace sinew
