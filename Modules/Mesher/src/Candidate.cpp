@@ -77,9 +77,9 @@ class KeptSet {
     return cost;
   }
 
-  /// The shallowest enveloped node of the tets that hold all the given nodes; kNone if there is none.
-  std::int32_t shallowestAt(std::span<const std::int32_t> nodes) const {
-    std::pair<double, std::int32_t> best{-std::numeric_limits<double>::infinity(), kNone};
+  /// The enveloped nodes of the tets that hold all the given nodes.
+  std::vector<std::int32_t> envelopedAt(std::span<const std::int32_t> nodes) const {
+    std::vector<std::int32_t> found;
     for (const std::int32_t t : stars_.of(nodes[0])) {
       const Tet& tet = mesh_.tets[t];
       const bool holdsAll = std::all_of(nodes.begin(), nodes.end(), [&](std::int32_t n) {
@@ -87,9 +87,16 @@ class KeptSet {
       });
       if (!holdsAll) continue;
       for (const std::int32_t v : tet) {
-        if (isEnveloped(v)) best = std::max(best, std::pair(mesh_.phi[v], v));
+        if (isEnveloped(v)) found.push_back(v);
       }
     }
+    return found;
+  }
+
+  /// The shallowest of envelopedAt; kNone if there is none.
+  std::int32_t shallowestAt(std::span<const std::int32_t> nodes) const {
+    std::pair<double, std::int32_t> best{-std::numeric_limits<double>::infinity(), kNone};
+    for (const std::int32_t v : envelopedAt(nodes)) best = std::max(best, std::pair(mesh_.phi[v], v));
     return best.second;
   }
 
@@ -288,12 +295,16 @@ Candidate selectCandidate(const LatticeMesh& mesh, const NodeStars& stars, const
 }
 
 std::vector<std::int32_t> retreat(const LatticeMesh& mesh, const NodeStars& stars, Candidate& candidate,
-                                  const std::vector<Trouble>& troubles) {
+                                  const std::vector<Trouble>& troubles, bool thoroughly) {
   KeptSet set(mesh, stars, std::move(candidate.enveloped));
   std::vector<std::int32_t> released, nodes;
   for (const Trouble& trouble : troubles) {
     const std::int32_t node = set.shallowestAt(trouble);
-    if (node != kNone) nodes.push_back(node);
+    if (node == kNone) continue;
+    nodes.push_back(node);
+    if (!thoroughly) continue;
+    const std::vector<std::int32_t> all = set.envelopedAt(trouble);
+    nodes.insert(nodes.end(), all.begin(), all.end());
   }
   sortUnique(nodes);
   while (!nodes.empty()) {

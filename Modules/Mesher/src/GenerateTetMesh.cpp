@@ -63,8 +63,9 @@ SizingOptions sizingOptions(const SignedDistance& phi, const GenerateTetMeshOpti
 constexpr double kMaxAspectRatio = 4.2;
 constexpr double kMinDihedralDeg = 20;
 constexpr double kMaxDihedralDeg = 142;
-constexpr int kMaxRetreats = 12;
-constexpr int kRetreatRings = 4;  // rings of nodes around a retreat that move again
+constexpr int kMaxRetreats = 16;
+constexpr int kGentleRetreats = 4;  // rounds that give up one node at each trouble; later ones give up all
+constexpr int kRetreatRings = 4;    // rings of nodes around a retreat that move again
 
 std::vector<Trouble> findTroubles(const TetMesh& mesh, const std::vector<std::int32_t>& latticeNodes,
                                   const std::vector<std::int32_t>& unsnapped) {
@@ -96,7 +97,8 @@ TetMesh compressWithRetreats(const LatticeMesh& background, const NodeStars& sta
     const std::vector<Trouble> troubles = findTroubles(mesh, latticeNodes, last.unsnapped);
     if (troubles.empty() || report.retreats == kMaxRetreats) break;
     ++report.retreats;
-    const std::vector<std::int32_t> released = retreat(background, stars, candidate, troubles);
+    const std::vector<std::int32_t> released =
+        retreat(background, stars, candidate, troubles, report.retreats > kGentleRetreats);
 
     std::vector<Eigen::Vector3d> reached(background.positions.size());
     for (std::size_t n = 0; n < latticeNodes.size(); ++n) reached[latticeNodes[n]] = mesh.nodes[n];

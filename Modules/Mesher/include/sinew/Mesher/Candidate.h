@@ -38,12 +38,12 @@ Candidate selectCandidate(const LatticeMesh& mesh, const NodeStars& stars,
 /// four of a badly shaped tet.
 using Trouble = std::vector<std::int32_t>;
 
-/// Gives up, at each trouble, the shallowest of its enveloped nodes, and keeps the conditions by giving up
-/// more: the candidate only shrinks, so a compressed mesh stays free of inverted tets when it loses the same
-/// tets.
+/// Gives up, at each trouble, the shallowest of its enveloped nodes (or, `thoroughly`, all of them), and
+/// keeps the conditions by giving up more: the candidate only shrinks, so a compressed mesh stays free of
+/// inverted tets when it loses the same tets.
 /// @return the lattice nodes given up, ascending
 std::vector<std::int32_t> retreat(const LatticeMesh& mesh, const NodeStars& stars, Candidate& candidate,
-                                  const std::vector<Trouble>& troubles);
+                                  const std::vector<Trouble>& troubles, bool thoroughly = false);
 
 /// The kept tets as a mesh with its node kinds; `latticeNodes`, if given, receives the lattice node of every
 /// mesh node.

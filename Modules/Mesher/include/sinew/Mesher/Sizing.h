@@ -16,7 +16,7 @@ struct SizingOptions {
   double edgeLength = 0;     ///< cube size asked for at the surface, mm, > 0
   double maxEdgeLength = 0;  ///< largest cube size, mm, >= edgeLength
   double minEdgeLength = 0;  ///< smallest cube size that curvature and thickness may ask for, mm
-  double curvature = 0.7;    ///< refine where cube size * (|k1| + |k2|) exceeds this; 0: never
+  double curvature = 1.0;    ///< refine where cube size * (|k1| + |k2|) exceeds this; 0: never
   double thickness = 1.6;    ///< refine where the shape is thinner than this many cubes; 0: never
   int levels = 0;            ///< largest number of levels; 0: no limit
 };

@@ -20,7 +20,7 @@ struct MeshTissuesOptions {
   Length edgeLength = Length::voxels(2);  ///< cube size of the lattice at the surface, > 0
   Length maxEdgeLength = 0;               ///< cube size deep inside; 0: eight times the edge length
   std::map<std::string, Length> sizes;  ///< tissue, by a wish as in selectTissues -> its own edge length, > 0
-  double curvature = 0.7;               ///< see GenerateTetMeshOptions
+  double curvature = 1.0;               ///< see GenerateTetMeshOptions
   int levels = 0;                       ///< see GenerateTetMeshOptions
   LevelSetFromLabelsOptions levelSet;   ///< labels to distance
 };
