@@ -1,7 +1,7 @@
 # sinew_add_module(NAME SOURCES ... PUBLIC libs... PRIVATE libs... TESTS ... BENCHMARKS ...)
 #
 # One static library sinew::NAME from Modules/NAME: public headers in include/, the rest in src/,
-# unit tests (one executable NAMETest) and benchmarks (one executable NAMEBench).
+# unit tests (one executable NAMETest; the target unit-tests builds all) and benchmarks (one executable NAMEBench).
 function(sinew_add_module name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE;TESTS;TEST_LIBRARIES;BENCHMARKS" ${ARGN})
   set(target Sinew${name})
@@ -23,20 +23,24 @@ function(sinew_add_module name)
     target_link_libraries(${name}Test PRIVATE ${target} ${ARG_PRIVATE} ${ARG_TEST_LIBRARIES} sinew::TestSupport GTest::gtest_main)
     sinew_warnings(${name}Test)
     gtest_discover_tests(${name}Test DISCOVERY_TIMEOUT 60 PROPERTIES LABELS unit)
+    if(NOT TARGET unit-tests)
+      add_custom_target(unit-tests)
+    endif()
+    add_dependencies(unit-tests ${name}Test)
   endif()
   if(SINEW_BUILD_BENCHMARKS AND ARG_BENCHMARKS)
     add_executable(${name}Bench ${ARG_BENCHMARKS})
     target_include_directories(${name}Bench PRIVATE src)
-    target_link_libraries(${name}Bench PRIVATE ${target} ${ARG_PRIVATE} benchmark::benchmark_main)
+    target_link_libraries(${name}Bench PRIVATE ${target} ${ARG_PRIVATE} sinew::TestSupport benchmark::benchmark_main)
     sinew_warnings(${name}Bench)
   endif()
 endfunction()
 
-# Warnings, and the sanitizers of the dev preset.
+# Warnings, and the sanitizers of the dev preset: what they find ends the program.
 function(sinew_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic)
   if(SINEW_SANITIZE)
-    target_compile_options(${target} PRIVATE -fsanitize=${SINEW_SANITIZE} -fno-omit-frame-pointer)
+    target_compile_options(${target} PRIVATE -fsanitize=${SINEW_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
     target_link_options(${target} PUBLIC -fsanitize=${SINEW_SANITIZE})
   endif()
 endfunction()

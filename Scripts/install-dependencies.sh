@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# Installs what Sinew is built from, as Debian 12 packages. Asks for nothing, and does nothing when all is there.
+set -euo pipefail
+
+packages=(
+  g++ cmake ninja-build
+  libinsighttoolkit5-dev libvtk9-dev libopenvdb-dev libboost-dev libeigen3-dev libtbb-dev zlib1g-dev
+  libcli11-dev nlohmann-json3-dev
+  libgtest-dev libbenchmark-dev
+)
+
+if ! command -v apt-get >/dev/null; then
+  echo "install-dependencies: there is no apt-get here. Install what these Debian 12 packages hold: ${packages[*]}" >&2
+  exit 1
+fi
+
+installed=$(dpkg-query --show --showformat='${db:Status-Status} ${Package}\n' "${packages[@]}" 2>/dev/null || true)
+missing=()
+for package in "${packages[@]}"; do
+  grep --quiet --line-regexp --fixed-strings "installed $package" <<<"$installed" || missing+=("$package")
+done
+if ((${#missing[@]} == 0)); then
+  echo "All ${#packages[@]} packages are installed."
+  exit 0
+fi
+
+as_root=()
+if ((EUID != 0)); then
+  if ! command -v sudo >/dev/null; then
+    echo "install-dependencies: run this as root, or install sudo. Missing: ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+  [[ -t 0 ]] || as_root+=(--non-interactive)
+fi
+
+apt() {
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get --quiet --yes --option Acquire::Retries=3 \
+    --option DPkg::Lock::Timeout=600 --option Dpkg::Use-Pty=0 "$@" </dev/null
+}
+
+echo "Installing ${missing[*]}"
+apt update
+apt install --no-install-recommends "${missing[@]}"
