@@ -15,7 +15,7 @@ ImageHeader readNrrdHeader(const std::filesystem::path& file);
 ImageHeader readNiftiHeader(const std::filesystem::path& file);
 ImageHeader readMetaHeader(const std::filesystem::path& file);
 
-/// The first `count` bytes of a file, unpacked when they are gzipped; fewer when the file is shorter.
+/// The first `count` bytes of a file, unpacked when it is gzipped; fewer when it is shorter.
 std::string readFront(const std::filesystem::path& file, std::size_t count);
 
 /// Refuses what has fewer than three axes, or a fourth with more than one image.

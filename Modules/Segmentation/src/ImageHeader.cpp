@@ -2,6 +2,7 @@
 
 #include "ImageFormats.h"
 #include "Text.h"
+#include "ZlibStreams.h"
 
 #include <Eigen/LU>
 
@@ -9,9 +10,8 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
-#include <memory>
+#include <span>
 #include <string>
-#include <zlib.h>
 
 namespace sinew {
 
@@ -53,10 +53,6 @@ bool isMeta(std::string_view front) {
 
 bool isDicom(std::string_view front) { return front.size() >= 132 && front.substr(128, 4) == "DICM"; }
 
-struct GzClose {
-  void operator()(gzFile_s* stream) const { gzclose(stream); }
-};
-
 /// `20 x 30 x 40`
 std::string shape(std::span<const std::int64_t> sizes) {
   std::string text;
@@ -80,11 +76,8 @@ ImageHeader readImageHeader(const fs::path& file) {
 }
 
 std::string readFront(const fs::path& file, std::size_t count) {
-  const std::unique_ptr<gzFile_s, GzClose> stream(gzopen(file.c_str(), "rb"));
-  if (!stream) text::refuse(file, "cannot be opened for reading; check its permissions");
   std::string front(count, '\0');
-  const int found = gzread(stream.get(), front.data(), static_cast<unsigned>(count));
-  front.resize(found > 0 ? static_cast<std::size_t>(found) : 0);
+  front.resize(UnpackStream(file, 0, isGzip(file)).read(std::as_writable_bytes(std::span(front))));
   return front;
 }
 

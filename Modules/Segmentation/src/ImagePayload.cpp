@@ -1,13 +1,10 @@
 #include "ImagePayload.h"
 
 #include "Text.h"
+#include "ZlibStreams.h"
 
 #include <algorithm>
-#include <fstream>
-#include <memory>
-#include <new>
 #include <span>
-#include <zlib.h>
 
 namespace sinew {
 
@@ -21,67 +18,6 @@ std::uint64_t storedBytes(const ImagePayload& payload) {
   const std::uint64_t size = fs::file_size(payload.file);
   return size > payload.offset ? size - payload.offset : 0;
 }
-
-struct InflateEnd {
-  void operator()(z_stream* stream) const { inflateEnd(stream); }
-};
-
-/// The unpacked bytes of a payload, in order.
-class PayloadStream {
- public:
-  explicit PayloadStream(const ImagePayload& payload)
-      : in_(payload.file, std::ios::binary), compressed_(payload.compressed), packed_(1 << 16) {
-    in_.seekg(static_cast<std::streamoff>(payload.offset));
-    constexpr int eitherWrapper = 15 + 32;
-    if (inflateInit2(&stream_, eitherWrapper) != Z_OK) throw std::bad_alloc();
-    owner_.reset(&stream_);
-  }
-
-  /// Fills `out` as far as it goes.
-  /// @return bytes read; fewer than wanted at the end and where the stream is damaged
-  std::size_t read(std::span<std::byte> out) {
-    if (!compressed_) {
-      in_.read(reinterpret_cast<char*>(out.data()), static_cast<std::streamsize>(out.size()));
-      return static_cast<std::size_t>(in_.gcount());
-    }
-    stream_.next_out = reinterpret_cast<unsigned char*>(out.data());
-    stream_.avail_out = static_cast<uInt>(out.size());
-    while (stream_.avail_out > 0 && inflateSome()) {
-    }
-    return out.size() - stream_.avail_out;
-  }
-
-  /// Whether the rest of the stream is sound up to its checksum, as far as anyone would look.
-  bool endsWell() {
-    constexpr int chunks = 256;
-    std::vector<std::byte> rest(1 << 12);
-    for (int i = 0; compressed_ && !ended_ && i < chunks; ++i)
-      if (read(rest) < rest.size()) return ended_;
-    return true;
-  }
-
- private:
-  /// @return false at the end and on damage
-  bool inflateSome() {
-    if (stream_.avail_in == 0) {
-      in_.read(reinterpret_cast<char*>(packed_.data()), static_cast<std::streamsize>(packed_.size()));
-      stream_.next_in = packed_.data();
-      stream_.avail_in = static_cast<uInt>(in_.gcount());
-      if (stream_.avail_in == 0) return false;
-    }
-    if (ended_) inflateReset(&stream_);  // several gzip members may follow each other
-    const int status = inflate(&stream_, Z_NO_FLUSH);
-    ended_ = status == Z_STREAM_END;
-    return status == Z_OK || ended_;
-  }
-
-  std::ifstream in_;
-  bool compressed_;
-  std::vector<unsigned char> packed_;
-  z_stream stream_{};
-  std::unique_ptr<z_stream, InflateEnd> owner_;
-  bool ended_ = false;
-};
 
 void swapBytes(std::span<std::byte> bytes, std::size_t size) {
   for (std::size_t i = 0; i + size <= bytes.size(); i += size) std::ranges::reverse(bytes.subspan(i, size));
@@ -109,15 +45,6 @@ constexpr Rescale kRescale[]{rescale<std::uint8_t>,  rescale<std::int8_t>,   res
                          std::to_string(payload.bytes) + " bytes can be read; export the segmentation again");
 }
 
-void skip(PayloadStream& stream, std::uint64_t bytes) {
-  std::vector<std::byte> scratch(1 << 12);
-  while (bytes > 0) {
-    const std::size_t count = stream.read({scratch.data(), std::min<std::uint64_t>(bytes, scratch.size())});
-    if (count == 0) return;
-    bytes -= count;
-  }
-}
-
 }  // namespace
 
 void requirePlausibleSize(const fs::path& file, const ImagePayload& payload) {
@@ -134,8 +61,8 @@ std::vector<std::int32_t> readPayload(const fs::path& file, const ImageGeometry&
   const std::size_t valueBytes = bytesOf(payload.type);
   const bool scaled = payload.slope != 1 || payload.intercept != 0;
   requirePlausibleSize(file, payload);
-  PayloadStream stream(payload);
-  skip(stream, payload.skip);
+  UnpackStream stream(payload.file, payload.offset, payload.compressed);
+  stream.skip(payload.skip);
 
   std::vector<std::int32_t> labels(static_cast<std::size_t>(geometry.voxelCount()));
   std::vector<std::byte> stored(chunk * valueBytes);

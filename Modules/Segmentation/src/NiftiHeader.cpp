@@ -1,12 +1,12 @@
 #include "ImageFormats.h"
 #include "Text.h"
+#include "ZlibStreams.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <vector>
 
 // https://nifti.nimh.nih.gov/pub/dist/src/niftilib/nifti1.h
@@ -155,11 +155,6 @@ void requireSingleValues(const fs::path& file, const NiftiFields& fields,
   constexpr int symmetricMatrix = 1005;
   if (shape.size() >= 5 && shape[4] > 1)
     refuseComponents(file, fields.integer(kIntentCode) == symmetricMatrix ? "tensors" : "vectors");
-}
-
-bool isGzip(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return stream.get() == 0x1F && stream.get() == 0x8B;
 }
 
 ImagePayload payload(const fs::path& file, const NiftiFields& fields,

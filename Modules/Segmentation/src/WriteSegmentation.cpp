@@ -2,17 +2,16 @@
 
 #include "SlicerKeys.h"
 #include "Text.h"
+#include "ZlibStreams.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 #include <fstream>
-#include <memory>
-#include <span>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
-#include <zlib.h>
 
 // https://teem.sourceforge.net/nrrd/format.html
 
@@ -107,53 +106,16 @@ std::string nrrdHeader(const Segmentation& segmentation, const VoxelType& type) 
   return header + "\n";
 }
 
-struct DeflateEnd {
-  void operator()(z_stream* stream) const { deflateEnd(stream); }
-};
-
-/// Packs bytes into a gzip member. Its header carries no time and no name: the same bytes give the same file.
-class GzipWriter {
- public:
-  explicit GzipWriter(std::ostream& out) : out_(out), packed_(1 << 16) {
-    constexpr int gzipWrapper = 15 + 16, memory = 8;
-    if (deflateInit2(&stream_, Z_DEFAULT_COMPRESSION, Z_DEFLATED, gzipWrapper, memory, Z_DEFAULT_STRATEGY) !=
-        Z_OK)
-      throw std::bad_alloc();
-    owner_.reset(&stream_);
-  }
-
-  void write(std::span<const unsigned char> bytes) { deflateAll(bytes, Z_NO_FLUSH); }
-  void finish() { deflateAll({}, Z_FINISH); }
-
- private:
-  void deflateAll(std::span<const unsigned char> bytes, int flush) {
-    stream_.next_in = const_cast<unsigned char*>(bytes.data());  // zlib reads only
-    stream_.avail_in = static_cast<uInt>(bytes.size());
-    do {
-      stream_.next_out = packed_.data();
-      stream_.avail_out = static_cast<uInt>(packed_.size());
-      deflate(&stream_, flush);
-      out_.write(reinterpret_cast<const char*>(packed_.data()),
-                 static_cast<std::streamsize>(packed_.size() - stream_.avail_out));
-    } while (stream_.avail_out == 0);
-  }
-
-  std::ostream& out_;
-  std::vector<unsigned char> packed_;
-  z_stream stream_{};
-  std::unique_ptr<z_stream, DeflateEnd> owner_;
-};
-
 /// The voxels of all layers, layer fastest, in chunks of a few rows.
 void writeVoxels(const Segmentation& segmentation, const VoxelType& type, GzipWriter& gzip) {
   constexpr std::int64_t chunk = 1 << 16;  // voxels
   const std::size_t layers = segmentation.layers.size();
   const std::int64_t count = segmentation.geometry.voxelCount();
-  std::vector<unsigned char> bytes;
+  std::vector<std::byte> bytes;
   for (std::int64_t first = 0; first < count; first += chunk) {
     const std::int64_t last = std::min(first + chunk, count);
     bytes.resize(static_cast<std::size_t>(last - first) * layers * type.bytes);
-    unsigned char* out = bytes.data();
+    std::byte* out = bytes.data();
     for (std::int64_t voxel = first; voxel < last; ++voxel)
       for (const auto& layer : segmentation.layers) {
         std::memcpy(out, &layer[voxel], type.bytes);  // the low bytes: two's complement, little endian

@@ -14,7 +14,8 @@ struct ReadSegmentationOptions {
 
 /// Reads a labelled volume: .nrrd, .nhdr, .seg.nrrd (one layer or several), .nii, .nii.gz, .mha, .mhd, of any
 /// integer pixel type, or floating point when every value is whole. Geometry is ITK's (LPS mm).
-/// A Slicer segmentation is recognised by its header, not by its name.
+/// Format and Slicer segmentations are recognised by the content, not by the name. The sform of a NIfTI file
+/// that ITK 5.2 refuses (no qform, and sheared or off by rounding) is taken as it stands.
 /// @throws std::runtime_error: one line that names the file, what is wrong and what to do.
 Segmentation readSegmentation(const std::filesystem::path& file, const ReadSegmentationOptions& options = {});
 

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <ostream>
+#include <span>
+#include <vector>
+
+struct z_stream_s;
+
+/// The door to zlib.
+namespace sinew {
+
+/// Whether a file begins as gzip files do.
+bool isGzip(const std::filesystem::path& file);
+
+/// The bytes of a file from an offset on, unpacked on the way when they are compressed (zlib or gzip; several
+/// gzip members may follow each other).
+class UnpackStream {
+ public:
+  UnpackStream(const std::filesystem::path& file, std::uint64_t offset, bool compressed);
+  ~UnpackStream();
+  UnpackStream(const UnpackStream&) = delete;
+  UnpackStream& operator=(const UnpackStream&) = delete;
+
+  /// Fills `out` as far as it goes.
+  /// @return bytes read; fewer than wanted at the end and where the stream is damaged
+  std::size_t read(std::span<std::byte> out);
+  /// Passes over bytes, or what there is of them.
+  void skip(std::uint64_t bytes);
+  /// Whether the rest of the stream is sound up to its checksum, as far as anyone would look (1 MB).
+  bool endsWell();
+
+ private:
+  bool inflateSome();
+
+  std::ifstream in_;
+  std::vector<unsigned char> packed_;
+  std::unique_ptr<z_stream_s> stream_;  ///< empty when nothing is compressed
+  bool ended_ = false;                  ///< behind the checksum of a member
+};
+
+/// Packs bytes into one gzip member. Its header carries no time and no name: the same bytes give the same
+/// file.
+class GzipWriter {
+ public:
+  explicit GzipWriter(std::ostream& out);
+  ~GzipWriter();
+  GzipWriter(const GzipWriter&) = delete;
+  GzipWriter& operator=(const GzipWriter&) = delete;
+
+  void write(std::span<const std::byte> bytes);
+  /// Call it once, at the end.
+  void finish();
+
+ private:
+  void deflateAll(std::span<const std::byte> bytes, int flush);
+
+  std::ostream& out_;
+  std::vector<unsigned char> packed_;
+  std::unique_ptr<z_stream_s> stream_;
+};
+
+}  // namespace sinew
