@@ -33,6 +33,8 @@ function(sinew_add_module name)
     target_include_directories(${name}Bench PRIVATE src)
     target_link_libraries(${name}Bench PRIVATE ${target} ${ARG_PRIVATE} sinew::TestSupport benchmark::benchmark_main)
     sinew_warnings(${name}Bench)
+    add_test(NAME ${name}Bench COMMAND ${name}Bench --benchmark_min_time=0.01)  # only that it builds and runs
+    set_tests_properties(${name}Bench PROPERTIES LABELS benchmark)
   endif()
 endfunction()
 
