@@ -9,6 +9,7 @@
 #include "sinew/LevelSet/LevelSetMeasures.h"
 #include "sinew/LevelSet/SliceDistances.h"
 #include "sinew/LevelSet/SliceInterpolation.h"
+#include "sinew/LevelSet/SliceSmoothing.h"
 #include "sinew/LevelSet/SurfaceLevel.h"
 #include "sinew/LevelSet/VolumeKeepingIso.h"
 
@@ -149,7 +150,10 @@ std::vector<double> planes(double spacing, double h, int count, int slices) {
 DenseField fieldOnGrid(DenseField field, const LabelCrop& crop, const GridPlacement& place,
                        const Plan& plan) {
   const Eigen::Vector3d& spacing = crop.spacing;
-  if (plan.thick) sliceDistances(field, spacing.head<2>(), kSlopeSlices * spacing.z());
+  if (plan.thick) {
+    sliceDistances(field, spacing.head<2>(), kSlopeSlices * spacing.z());
+    smoothAcrossSlices(field, spacing.head<2>().minCoeff());
+  }
   if (place.aligned) {
     for (int a = 0; a < (plan.thick ? 2 : 3); ++a) resampleTo(field, a, spacing[a], plan.h, place.size[a]);
     if (!plan.thick) return field;

@@ -22,19 +22,27 @@ struct ChangingPiece {
 class GapBalancer {
  public:
   GapBalancer(SliceGap& gap, const float* before, const float* after, double rounding)
-      : gap_(gap), before_(before), after_(after), rounding_(rounding), seen_(gap.lower.size(), 0) {}
+      : gap_(gap),
+        before_(before),
+        after_(after),
+        rounding_(rounding),
+        seen_(gap.lower.size(), 0),
+        bridged_(gap.lower.size(), 0) {}
 
   void run() {
-    for (std::size_t p = 0; p < gap_.lower.size(); ++p) {
-      if (seen_[p] || !changes(static_cast<int>(p))) continue;
-      limit(collect(static_cast<int>(p)));
-    }
+    const int pixels = static_cast<int>(gap_.lower.size());
+    for (int p = 0; p < pixels; ++p)
+      if (isTissue(p) && !seen_[static_cast<std::size_t>(p)]) bridge(collectRegion(p));
+    seen_ = bridged_;
+    for (int p = 0; p < pixels; ++p)
+      if (changes(p) && !seen_[static_cast<std::size_t>(p)]) limit(collectPiece(p));
   }
 
  private:
   float lower(int p) const { return gap_.lower[static_cast<std::size_t>(p)]; }
   float upper(int p) const { return gap_.upper[static_cast<std::size_t>(p)]; }
   bool changes(int p) const { return (lower(p) < 0) != (upper(p) < 0); }
+  bool isTissue(int p) const { return lower(p) < 0 || upper(p) < 0; }
 
   template <typename Visit>
   void neighbours(int p, const Visit& visit) const {
@@ -43,7 +51,7 @@ class GapBalancer {
       if (x + dx >= 0 && x + dx < gap_.nx && y + dy >= 0 && y + dy < gap_.ny) visit(p + dx + dy * gap_.nx);
   }
 
-  ChangingPiece collect(int start) {
+  ChangingPiece collectPiece(int start) {
     ChangingPiece piece;
     const bool lowerInside = lower(start) < 0;
     piece.pixels.push_back(start);
@@ -58,6 +66,66 @@ class GapBalancer {
         }
       });
     return piece;
+  }
+
+  /// The connected pixels that are tissue on either slice.
+  std::vector<int> collectRegion(int start) {
+    std::vector<int> region{start};
+    seen_[static_cast<std::size_t>(start)] = 1;
+    for (std::size_t next = 0; next < region.size(); ++next)
+      neighbours(region[next], [&](int n) {
+        if (!isTissue(n) || seen_[static_cast<std::size_t>(n)]) return;
+        seen_[static_cast<std::size_t>(n)] = 1;
+        region.push_back(n);
+      });
+    return region;
+  }
+
+  /// A thin part that runs aslant leaves two patches that touch or hardly overlap. The sum of their distances
+  /// is low between them: bulge = the value that gives the shape  (lower + upper) / 2 < bulge  their mean
+  /// area.
+  void bridge(const std::vector<int>& region) {
+    constexpr double kOverlap = 0.3, kLikeness = 4;
+    constexpr int kSurroundings = 4;  // pixels
+    std::size_t below = 0, above = 0, both = 0;
+    for (const int p : region) {
+      below += lower(p) < 0;
+      above += upper(p) < 0;
+      both += !changes(p);
+    }
+    const auto [smaller, larger] = std::minmax(below, above);
+    if (static_cast<double>(both) >= kOverlap * static_cast<double>(smaller) ||
+        static_cast<double>(larger) > kLikeness * static_cast<double>(smaller))
+      return;
+
+    const std::vector<int> area = withSurroundings(region, kSurroundings);
+    std::vector<float> middle;
+    for (const int p : area) middle.push_back((lower(p) + upper(p)) / 2);
+    const auto wanted = middle.begin() + static_cast<std::ptrdiff_t>((below + above) / 2);
+    std::nth_element(middle.begin(), wanted, middle.end());
+    if (gap_.bulge.empty()) gap_.bulge.assign(gap_.lower.size(), 0);
+    for (const int p : area) {
+      gap_.bulge[static_cast<std::size_t>(p)] = std::max(*wanted, 0.0F);
+      gap_.limited[static_cast<std::size_t>(p)] = 1;
+    }
+    for (const int p : region) bridged_[static_cast<std::size_t>(p)] = 1;
+  }
+
+  /// A region and the background pixels around it.
+  std::vector<int> withSurroundings(const std::vector<int>& region, int rings) {
+    std::vector<int> area = region;
+    std::size_t ringBegin = 0;
+    for (int ring = 0; ring < rings; ++ring) {
+      const std::size_t ringEnd = area.size();
+      for (; ringBegin < ringEnd; ++ringBegin)
+        neighbours(area[ringBegin], [&](int n) {
+          if (isTissue(n) || seen_[static_cast<std::size_t>(n)]) return;
+          seen_[static_cast<std::size_t>(n)] = 1;
+          area.push_back(n);
+        });
+    }
+    for (std::size_t n = region.size(); n < area.size(); ++n) seen_[static_cast<std::size_t>(area[n])] = 0;
+    return area;
   }
 
   void limit(const ChangingPiece& piece) {
@@ -170,7 +238,7 @@ class GapBalancer {
   SliceGap& gap_;
   const float *before_, *after_;
   double rounding_;
-  std::vector<std::uint8_t> seen_;
+  std::vector<std::uint8_t> seen_, bridged_;
 };
 
 }  // namespace

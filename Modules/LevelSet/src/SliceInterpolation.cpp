@@ -47,7 +47,9 @@ class GapPlanes {
     for (std::size_t p = 0; p < gap_.lower.size(); ++p) {
       const float b = gap_.lower[p], c = gap_.upper[p];
       float value = b + t * (c - b);
-      if (!gap_.limited[p])
+      if (gap_.limited[p])
+        value -= gap_.bulge.empty() ? 0 : 4 * t * (1 - t) * gap_.bulge[p];
+      else
         value =
             keepSign(w[0] * before_[p] + w[1] * lower_[p] + w[2] * upper_[p] + w[3] * after_[p], value, b, c);
       plane[p] = std::clamp(value, -limit, limit);

@@ -118,6 +118,26 @@ TEST(SliceInterpolation, AHoleEndsLikeAPieceOfTissue) {
   EXPECT_GT(phi(40, 40, 10), 0) << "slice 3 and a third: the cavity is there";
 }
 
+TEST(SliceInterpolation, AThinTubeThatRunsAslantIsJoined) {
+  // Discs of 1.2 mm that move by 2.3 mm per slice: they touch at their rims. Four mid-planes between five
+  // slices.
+  const DenseField slices =
+      sampled({81, 41, 7}, {-12, -6, 0}, {kPixel, kPixel, kSlice}, [&](const Vector3d& x) {
+        return x.z() < 0.5 || x.z() > 5.5 ? kLimit : std::hypot(x.x() - 2.3 * (x.z() - 3), x.y()) - 1.2;
+      });
+  const DenseField phi = interpolateSlices(slices, kSlice, {1.5, 2.5, 3.5, 4.5}, kLimit);
+  for (int n = 0; n < 4; ++n) {
+    const int middle = static_cast<int>(std::lround((2.3 * (n - 1.5) + 12) / kPixel));
+    EXPECT_LT(phi(middle, 20, n), -kPixel) << "plane " << n;
+    std::int64_t pixels = 0;
+    for (int j = 0; j < 41; ++j) {
+      for (int i = 0; i < 81; ++i) pixels += phi(i, j, n) < 0;
+    }
+    // The mean area of the two discs; pixels of the discs' rims decide their counts.
+    EXPECT_NEAR(static_cast<double>(pixels) * kPixel * kPixel / (std::numbers::pi * 1.44), 1, 0.1);
+  }
+}
+
 TEST(SliceInterpolation, NoTissueAppearsBetweenEmptyNeighbours) {
   // 0.3 mm outside on two slices, then far outside: the cubic alone swings through zero.
   DenseField slices({1, 1, 4}, 0.3F);
