@@ -18,6 +18,7 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kGrain = 128;  // nodes per task
 constexpr double kFirstCap = 4;      // F that the first snap may cost
+constexpr double kLastCap = 14;
 constexpr double kCapGrowth = 1.25;  // per round
 constexpr int kFullRounds = 3;       // rounds after which only the surroundings of late nodes go on
 constexpr int kLateRings = 2;
@@ -54,7 +55,8 @@ class Compressor {
   CompressionReport run() {
     CompressionReport report;
     double cap = kFirstCap;
-    for (; report.snapSweeps < options_.snapSweeps; ++report.snapSweeps, cap *= kCapGrowth) {
+    for (; report.snapSweeps < options_.snapSweeps;
+         ++report.snapSweeps, cap = std::min(kLastCap, cap * kCapGrowth)) {
       snap(cap);
       relax(2, 0);
       relax(2, 0);

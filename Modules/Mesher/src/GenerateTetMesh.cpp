@@ -7,8 +7,10 @@
 #include "sinew/Mesher/MeshQuality.h"
 #include "sinew/Mesher/Sizing.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace sinew {
@@ -65,7 +67,9 @@ constexpr double kMinDihedralDeg = 20;
 constexpr double kMaxDihedralDeg = 142;
 constexpr int kMaxRetreats = 16;
 constexpr int kGentleRetreats = 4;  // rounds that give up one node at each trouble; later ones give up all
-constexpr int kRetreatRings = 4;    // rings of nodes around a retreat that move again
+constexpr double kLargestRetreat = 0.1;  // fraction of the tets that may be given up, of large meshes
+constexpr double kSmallMesh = 1000;      // tets below which a mesh may shrink to nothing
+constexpr int kRetreatRings = 4;         // rings of nodes around a retreat that move again
 
 std::vector<Trouble> findTroubles(const TetMesh& mesh, const std::vector<std::int32_t>& latticeNodes,
                                   const std::vector<std::int32_t>& unsnapped) {
@@ -84,50 +88,102 @@ std::vector<Trouble> findTroubles(const TetMesh& mesh, const std::vector<std::in
   return troubles;
 }
 
-/// Compresses; where nodes stay off the surface or tets stay bad, lets the candidate retreat there and
-/// compresses the surroundings again.
+/// The candidate on its way onto the surface, and what is wrong with it so far.
+class Compaction {
+ public:
+  Compaction(const LatticeMesh& background, const NodeStars& stars, Candidate& candidate,
+             const SignedDistance& phi, const GenerateTetMeshOptions& options)
+      : background_(background),
+        stars_(stars),
+        candidate_(candidate),
+        phi_(phi),
+        label_(options.label),
+        compression_{.edgeLength = options.edgeLength},
+        mesh_(extractMesh(background, candidate.keep, options.label, &latticeNodes_)) {
+    compress({});
+  }
+
+  const TetMesh& mesh() const { return mesh_; }
+  const std::vector<Trouble>& troubles() const { return troubles_; }
+  /// Whether every boundary node has reached the surface.
+  std::size_t unsnapped() const { return unsnapped_; }
+
+  /// Lets the candidate give way at the troubles and compresses the surroundings again.
+  void giveWay(bool thoroughly) {
+    const std::vector<std::int32_t> released =
+        retreat(background_, stars_, candidate_, troubles_, thoroughly);
+    std::vector<Eigen::Vector3d> reached(background_.positions.size());
+    for (std::size_t n = 0; n < latticeNodes_.size(); ++n) reached[latticeNodes_[n]] = mesh_.nodes[n];
+    mesh_ = extractMesh(background_, candidate_.keep, label_, &latticeNodes_);
+
+    std::vector<std::uint8_t> around(background_.positions.size(), 0);
+    for (const std::int32_t n : released) {
+      for (const std::int32_t t : stars_.of(n)) {
+        for (const std::int32_t v : background_.tets[t]) around[v] = 1;
+      }
+    }
+    std::vector<std::uint8_t> region(mesh_.nodes.size(), 0);
+    for (std::size_t n = 0; n < latticeNodes_.size(); ++n) {
+      mesh_.nodes[n] = reached[latticeNodes_[n]];
+      region[n] = around[latticeNodes_[n]];
+    }
+    growRings(mesh_, kRetreatRings, region);
+    compress(region);
+  }
+
+ private:
+  void compress(const std::vector<std::uint8_t>& region) {
+    const CompressionReport report = compressOntoSurface(mesh_, phi_, compression_, region);
+    unsnapped_ = report.unsnapped.size();
+    troubles_ = findTroubles(mesh_, latticeNodes_, report.unsnapped);
+  }
+
+  const LatticeMesh& background_;
+  const NodeStars& stars_;
+  Candidate& candidate_;
+  const SignedDistance& phi_;
+  std::int32_t label_;
+  CompressionOptions compression_;
+  std::vector<std::int32_t> latticeNodes_;
+  TetMesh mesh_;
+  std::vector<Trouble> troubles_;
+  std::size_t unsnapped_ = 0;
+};
+
+double maxBoundaryPhi(const TetMesh& mesh, const SignedDistance& phi) {
+  double largest = 0;
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
+    if (mesh.kinds[n] == NodeKind::Boundary) largest = std::max(largest, std::abs(phi.value(mesh.nodes[n])));
+  }
+  return largest;
+}
+
+/// The best mesh on the surface among those that the retreats lead to.
 TetMesh compressWithRetreats(const LatticeMesh& background, const NodeStars& stars, Candidate& candidate,
                              const SignedDistance& phi, const GenerateTetMeshOptions& options,
                              GenerateTetMeshReport& report) {
-  const CompressionOptions compression{.edgeLength = options.edgeLength};
-  std::vector<std::int32_t> latticeNodes;
-  TetMesh mesh = extractMesh(background, candidate.keep, options.label, &latticeNodes);
-  CompressionReport last = compressOntoSurface(mesh, phi, compression);
-  while (!mesh.tets.empty()) {
-    const std::vector<Trouble> troubles = findTroubles(mesh, latticeNodes, last.unsnapped);
-    if (troubles.empty() || report.retreats == kMaxRetreats) break;
-    ++report.retreats;
-    const std::vector<std::int32_t> released =
-        retreat(background, stars, candidate, troubles, report.retreats > kGentleRetreats);
-
-    std::vector<Eigen::Vector3d> reached(background.positions.size());
-    for (std::size_t n = 0; n < latticeNodes.size(); ++n) reached[latticeNodes[n]] = mesh.nodes[n];
-    mesh = extractMesh(background, candidate.keep, options.label, &latticeNodes);
-    std::vector<std::uint8_t> around(background.positions.size(), 0);
-    for (const std::int32_t n : released) {
-      for (const std::int32_t t : stars.of(n)) {
-        for (const std::int32_t v : background.tets[t]) around[v] = 1;
-      }
+  Compaction compaction(background, stars, candidate, phi, options);
+  const double smallest =
+      (1 - kLargestRetreat) * static_cast<double>(compaction.mesh().tets.size()) - kSmallMesh;
+  TetMesh best;
+  std::size_t fewest = std::numeric_limits<std::size_t>::max();
+  while (true) {
+    if (compaction.unsnapped() == 0 && compaction.troubles().size() < fewest) {
+      fewest = compaction.troubles().size();
+      best = compaction.mesh();
     }
-    std::vector<std::uint8_t> region(mesh.nodes.size(), 0);
-    for (std::size_t n = 0; n < latticeNodes.size(); ++n) {
-      mesh.nodes[n] = reached[latticeNodes[n]];
-      region[n] = around[latticeNodes[n]];
-    }
-    growRings(mesh, kRetreatRings, region);
-    last = compressOntoSurface(mesh, phi, compression, region);
+    if (compaction.troubles().empty() || report.retreats == kMaxRetreats) break;
+    compaction.giveWay(++report.retreats > kGentleRetreats);
+    if (compaction.mesh().tets.empty() || static_cast<double>(compaction.mesh().tets.size()) < smallest)
+      break;
   }
-  if (!last.unsnapped.empty()) {
+  if (fewest == std::numeric_limits<std::size_t>::max()) {
     throw std::runtime_error(
-        std::to_string(last.unsnapped.size()) +
+        std::to_string(compaction.unsnapped()) +
         " boundary nodes cannot reach the surface without crushing tets; try a smaller edge length");
   }
-  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
-    if (mesh.kinds[n] == NodeKind::Boundary) {
-      report.maxBoundaryPhi = std::max(report.maxBoundaryPhi, std::abs(phi.value(mesh.nodes[n])));
-    }
-  }
-  return mesh;
+  report.maxBoundaryPhi = maxBoundaryPhi(best, phi);
+  return best;
 }
 
 }  // namespace
@@ -166,9 +222,29 @@ TetMesh generateTetMesh(const SignedDistance& phi, const GenerateTetMeshOptions&
 }
 
 double estimateMemory(const SignedDistance& phi, const GenerateTetMeshOptions& options) {
-  (void)phi;
-  (void)options;
-  return 0;
+  constexpr double kNear = 0.5;        // a plane has about one cube centre this near, in cubes, per cube face
+  constexpr double kSurfaceTets = 60;  // tets within the uniform layer, per area of one edge length squared
+  constexpr double kInteriorTets = 12;  // tets per cube of the largest size
+  constexpr double kBytesPerTet =
+      400;  // measured at the peak of the compression, bits of the lattice included
+  const SizingOptions sizing = sizingOptions(phi, options);
+  const double cube = std::max(sizing.edgeLength, 0.5 * phi.band());
+  const Eigen::AlignedBox3d box = phi.bounds();
+  const Eigen::Array3i cells = (box.sizes() / cube).array().ceil().cast<int>();
+  double surfaceCubes = 0, insideCubes = 0;
+  for (int z = 0; z < cells.z(); ++z) {
+    for (int y = 0; y < cells.y(); ++y) {
+      for (int x = 0; x < cells.x(); ++x) {
+        const double value = phi.value(box.min() + cube * Eigen::Vector3d(x + 0.5, y + 0.5, z + 0.5));
+        surfaceCubes += std::abs(value) < kNear * cube;
+        insideCubes += value < 0;
+      }
+    }
+  }
+  const double area = surfaceCubes * cube * cube, volume = insideCubes * cube * cube * cube;
+  const double tets = kSurfaceTets * area / (sizing.edgeLength * sizing.edgeLength) +
+                      kInteriorTets * volume / std::pow(sizing.maxEdgeLength, 3);
+  return kBytesPerTet * tets;
 }
 
 }  // namespace sinew

@@ -152,7 +152,7 @@ TEST(MeshConditions, ALargeBallHasNone) {
 
 TEST(MeshConditions, AgreeWithTheDefinitionsOnRandomParts) {
   std::mt19937 random(17);
-  for (const std::uint32_t percent : {10, 30, 50, 70, 90, 97}) {
+  for (const std::uint32_t percent : {20, 50, 80, 97}) {
     const TetMesh mesh = test::bccBlock({4, 4, 4}, [&](const Vector3d&) { return random() % 100 < percent; });
     EXPECT_EQ(countsOf(mesh), naiveCounts(mesh)) << percent << " % kept, seed 17";
   }

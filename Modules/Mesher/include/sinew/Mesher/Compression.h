@@ -11,7 +11,7 @@ namespace sinew {
 struct CompressionOptions {
   double edgeLength = 0;           ///< cube size of the lattice at the surface, mm, > 0
   double surfaceTolerance = 1e-5;  ///< |phi| of a boundary node at the end, in edge lengths
-  int snapSweeps = 24;             ///< rounds of the snap onto the surface before giving up
+  int snapSweeps = 16;             ///< rounds of the snap onto the surface before giving up
 };
 
 struct CompressionReport {
