@@ -10,6 +10,7 @@
 #include "sinew/LevelSet/SliceDistances.h"
 #include "sinew/LevelSet/SliceInterpolation.h"
 #include "sinew/LevelSet/SliceSmoothing.h"
+#include "sinew/LevelSet/SmallPieces.h"
 #include "sinew/LevelSet/SurfaceLevel.h"
 #include "sinew/LevelSet/VolumeKeepingIso.h"
 
@@ -94,6 +95,8 @@ SurfaceField smoothedField(const LabelCrop& crop, std::int64_t voxels, const Eig
   }
   field.iso = volumeKeepingIso(field.values, voxels);
   subtractSurfaceLevel(field.values, crop.mask, sigma, field.iso);
+  restoreSmallPieces(field.values, crop.mask,
+                     static_cast<float>(field.iso) - 1);  // the value of a voxel not smoothed
   return field;
 }
 
