@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# Makes the pictures of the README anew: make-pictures.sh SINEW [FROGTISSUE.mhd]
+# Needs python3-vtk9, xvfb and xauth. The frog is Data/froggy/frogtissue.mhd of VTK's data; without it its picture stays.
+set -euo pipefail
+docs=$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)
+sinew=${1:?the program sinew}
+frog=${2:-}
+work=$(mktemp -d)
+trap 'rm -rf -- "$work"' EXIT
+
+"$sinew" phantom upper-arm --output "$work/upper-arm.seg.nrrd"
+"$sinew" mesh "$work/upper-arm.seg.nrrd" --output "$work/upper-arm" --edge-length 2 --curvature 0 --size skin=0.8 \
+  --size "biceps tendons=1" --size "triceps tendons=1"
+"$sinew" phantom torus --output "$work/torus.seg.nrrd"
+"$sinew" mesh "$work/torus.seg.nrrd" --output "$work/torus" --edge-length 1 --curvature 0
+if [[ $frog ]]; then
+  tissues=()
+  for label in {1..15}; do tissues+=(--tissue "$label"); done
+  "$sinew" mesh "$frog" --lut "$docs/frog.ctbl" "${tissues[@]}" --output "$work/frog" --edge-length 5 --curvature 0 \
+    --size skeleton=3.5 --size blood=3 --size nerve=3
+fi
+xvfb-run --auto-servernum --server-args "-screen 0 1280x1024x24" /usr/bin/python3 "$docs/pictures.py" "$work"
