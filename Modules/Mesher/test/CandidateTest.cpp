@@ -1,0 +1,209 @@
+#include "RandomShapes.h"
+#include "sinew/Mesher/Candidate.h"
+#include "sinew/Mesher/MeshConditions.h"
+#include "sinew/Mesher/MeshQuality.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace sinew {
+namespace {
+
+using Eigen::Vector3d;
+
+struct Background {
+  LatticeMesh mesh;
+  NodeStars stars;
+};
+
+Background backgroundOf(const SignedDistance& phi, double edgeLength) {
+  const SizingOptions options{.edgeLength = edgeLength,
+                              .maxEdgeLength = 8 * edgeLength,
+                              .minEdgeLength = std::min(phi.resolution(), edgeLength)};
+  const LatticePlan plan = planLattice(phi, options);
+  RedGreenLattice lattice(plan.coarseCells, plan.levels);
+  refineToSize(lattice, plan, phi, options);
+  Background b{latticeMesh(lattice, plan, phi), {}};
+  b.stars = nodeStars(b.mesh.positions.size(), b.mesh.tets);
+  return b;
+}
+
+/// Whether the kept tets are exactly those with an enveloped node.
+bool keepsTheStarsOfEnvelopedNodes(const LatticeMesh& mesh, const Candidate& candidate) {
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    const bool enveloped =
+        std::ranges::any_of(mesh.tets[t], [&](std::int32_t v) { return candidate.enveloped[v] != 0; });
+    if (enveloped != (candidate.keep[t] != 0)) return false;
+  }
+  return true;
+}
+
+void expectWithinLatticeBounds(const TetMesh& mesh) {
+  constexpr double rounding = 1e-9;  // [7]: every tet is a leaf, not moved yet
+  const MeshQuality q = meshQuality(mesh);
+  EXPECT_LE(q.maxAspectRatio, std::sqrt(10.0) + rounding);
+  EXPECT_GE(q.minDihedralDeg, 30 - rounding);
+  EXPECT_LE(q.maxDihedralDeg, 116.5650511770781 + rounding);
+  EXPECT_EQ(q.inverted, 0);
+}
+
+constexpr unsigned kShapes = 72;
+
+TEST(Candidate, OfRandomShapesObeysTheConditions) {
+  for (unsigned seed = 0; seed < kShapes; ++seed) {
+    const test::RandomShape shape = test::randomShape(seed);
+    SCOPED_TRACE("seed " + std::to_string(seed) + ", " + shape.name());
+    const Background b = backgroundOf(shape, seed % 2 == 0 ? 1.5 : 2.0);
+    const Candidate candidate = selectCandidate(b.mesh, b.stars);
+    const TetMesh mesh = extractMesh(b.mesh, candidate.keep, 1);
+    EXPECT_GT(mesh.tets.size(), 0u);
+    EXPECT_EQ(candidate.violations, 0);
+    EXPECT_TRUE(meshConditions(mesh).good());
+    EXPECT_TRUE(keepsTheStarsOfEnvelopedNodes(b.mesh, candidate));
+    expectWithinLatticeBounds(mesh);
+  }
+}
+
+TEST(Candidate, HasTheTopologyOfSphereAndTorus) {
+  const auto topologyOf = [](const SignedDistance& phi) {
+    const Background b = backgroundOf(phi, 1);
+    return meshTopology(extractMesh(b.mesh, selectCandidate(b.mesh, b.stars).keep, 1));
+  };
+  const MeshTopology ball = topologyOf(test::AnalyticSphere({0.1, 0.2, 0.3}, 5));
+  EXPECT_EQ(ball.components, 1);
+  EXPECT_EQ(ball.boundaryComponents, 1);
+  EXPECT_EQ(ball.eulerCharacteristic, 2);
+  const MeshTopology ring = topologyOf(test::AnalyticTorus({0.1, 0.2, 0.3}, 6, 2));
+  EXPECT_EQ(ring.components, 1);
+  EXPECT_EQ(ring.boundaryComponents, 1);
+  EXPECT_EQ(ring.eulerCharacteristic, 0);
+}
+
+TEST(Candidate, WithoutRepairIsTheEnvelopeOfNodesWellInside) {
+  const Background b = backgroundOf(test::AnalyticTorus({0, 0, 0}, 5, 1.6), 1);
+  for (const double fraction : {0.1, 0.25, 0.5}) {
+    const Candidate candidate =
+        selectCandidate(b.mesh, b.stars, {.minInsideFraction = fraction, .maxPasses = 0});
+    std::vector<std::uint8_t> expected(b.mesh.phi.size());
+    for (std::size_t n = 0; n < expected.size(); ++n) {
+      bool deep = b.mesh.phi[n] < 0;
+      for (const std::int32_t t : b.stars.of(static_cast<std::int32_t>(n)))
+        for (const std::int32_t v : b.mesh.tets[t]) {
+          // Where linear interpolation puts the surface on the edge, from n: past the fraction, or nowhere.
+          const double crossing = b.mesh.phi[v] <= 0 ? 1 : -b.mesh.phi[n] / (b.mesh.phi[v] - b.mesh.phi[n]);
+          deep = deep && crossing >= fraction;
+        }
+      expected[n] = deep;
+    }
+    EXPECT_EQ(candidate.enveloped, expected) << fraction;
+    EXPECT_EQ(candidate.passes, 0);
+    EXPECT_EQ(candidate.added, 0);
+  }
+}
+
+/// Ten shapes whose envelopes break the conditions: the repair has work to do.
+TEST(Candidate, RepairOnlyAddsAndSaysWhatIsLeftAtItsCap) {
+  std::int64_t added = 0, violations = 0;
+  for (unsigned seed = 2; seed < 62; seed += 6) {  // gyroid pieces
+    const Background b = backgroundOf(test::randomShape(seed), 2);
+    const Candidate bare = selectCandidate(b.mesh, b.stars, {.maxPasses = 0});
+    const Candidate repaired = selectCandidate(b.mesh, b.stars);
+    violations += bare.violations;
+    added += repaired.added;
+    EXPECT_EQ(bare.violations == 0, meshConditions(extractMesh(b.mesh, bare.keep, 1)).good())
+        << "seed " << seed;
+    EXPECT_EQ(repaired.added,
+              std::ranges::count(repaired.enveloped, 1) - std::ranges::count(bare.enveloped, 1));
+    for (std::size_t n = 0; n < bare.enveloped.size(); ++n)
+      EXPECT_LE(bare.enveloped[n], repaired.enveloped[n]);
+  }
+  EXPECT_GT(violations, 0);
+  EXPECT_GT(added, 0);
+}
+
+TEST(Candidate, OfNothingIsEmpty) {
+  const Background b = backgroundOf(test::AnalyticSphere(Vector3d::Zero(), 0.1), 2);
+  const Candidate candidate = selectCandidate(b.mesh, b.stars);
+  EXPECT_EQ(std::ranges::count(candidate.keep, 1), 0);
+  EXPECT_TRUE(extractMesh(b.mesh, candidate.keep, 1).tets.empty());
+}
+
+/// Random nodes and random tets of the present candidate.
+std::vector<Trouble> randomTroubles(const LatticeMesh& mesh, const Candidate& candidate,
+                                    std::mt19937& random) {
+  std::vector<std::size_t> kept;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+    if (candidate.keep[t]) kept.push_back(t);
+  std::vector<Trouble> troubles;
+  for (int k = 0; k < 4 && !kept.empty(); ++k) {
+    const Tet& tet = mesh.tets[kept[random() % kept.size()]];
+    troubles.push_back(k % 2 == 0 ? Trouble{tet[random() % 4]} : Trouble(tet.begin(), tet.end()));
+  }
+  return troubles;
+}
+
+TEST(Retreat, OnlyShrinksAndKeepsTheConditions) {
+  for (unsigned seed = 0; seed < 24; ++seed) {
+    const test::RandomShape shape = test::randomShape(seed);
+    const Background b = backgroundOf(shape, 2);
+    Candidate candidate = selectCandidate(b.mesh, b.stars);
+    std::mt19937 random(seed);
+    for (int round = 0; round < 6; ++round) {
+      SCOPED_TRACE("seed " + std::to_string(seed) + ", round " + std::to_string(round) + ", " + shape.name());
+      const Candidate before = candidate;
+      const bool thoroughly = round >= 4;
+      const std::vector<Trouble> troubles = randomTroubles(b.mesh, candidate, random);
+      const std::vector<std::int32_t> released = retreat(b.mesh, b.stars, candidate, troubles, thoroughly);
+
+      EXPECT_TRUE(std::ranges::is_sorted(released));
+      EXPECT_EQ(released.empty(), troubles.empty());
+      std::vector<std::uint8_t> expected = before.enveloped;
+      for (const std::int32_t n : released) {
+        EXPECT_EQ(expected[n], 1);
+        expected[n] = 0;
+      }
+      EXPECT_EQ(candidate.enveloped, expected);
+      EXPECT_TRUE(keepsTheStarsOfEnvelopedNodes(b.mesh, candidate));
+      EXPECT_TRUE(meshConditions(extractMesh(b.mesh, candidate.keep, 1)).good());
+    }
+  }
+}
+
+TEST(Retreat, FromNothingChangesNothing) {
+  const Background b = backgroundOf(test::AnalyticSphere(Vector3d::Zero(), 4), 1);
+  Candidate candidate = selectCandidate(b.mesh, b.stars);
+  const Candidate before = candidate;
+  EXPECT_TRUE(retreat(b.mesh, b.stars, candidate, {}).empty());
+  EXPECT_EQ(candidate.keep, before.keep);
+  EXPECT_EQ(candidate.enveloped, before.enveloped);
+}
+
+TEST(ExtractMesh, NamesTheLatticeNodesAndMarksTheBoundary) {
+  const Background b = backgroundOf(test::AnalyticTorus({0, 0, 0}, 5, 2), 1);
+  const Candidate candidate = selectCandidate(b.mesh, b.stars);
+  std::vector<std::int32_t> latticeNodes{7, 7, 7};  // to be overwritten
+  const TetMesh mesh = extractMesh(b.mesh, candidate.keep, 42, &latticeNodes);
+  ASSERT_EQ(latticeNodes.size(), mesh.nodes.size());
+  ASSERT_EQ(mesh.kinds.size(), mesh.nodes.size());
+  EXPECT_TRUE(std::ranges::is_sorted(latticeNodes));
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
+    EXPECT_EQ(mesh.nodes[n], b.mesh.positions[latticeNodes[n]]);
+  EXPECT_EQ(mesh.labels, std::vector<std::int32_t>(mesh.tets.size(), 42));
+  std::vector<NodeKind> kinds(mesh.nodes.size(), NodeKind::Interior);
+  for (const Triangle& triangle : boundaryTriangles(mesh))
+    for (const std::int32_t v : triangle) kinds[v] = NodeKind::Boundary;
+  EXPECT_EQ(mesh.kinds, kinds);
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < b.mesh.tets.size(); ++t) {
+    if (!candidate.keep[t]) continue;
+    for (int v = 0; v < 4; ++v) EXPECT_EQ(latticeNodes[mesh.tets[kept][v]], b.mesh.tets[t][v]);
+    ++kept;
+  }
+  EXPECT_EQ(kept, mesh.tets.size());
+}
+
+}  // namespace
+}  // namespace sinew
