@@ -1,0 +1,92 @@
+#include "SurfaceSeeds.h"
+
+#include "Tricubic.h"
+
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace sinew {
+namespace {
+
+/// Distance to the zero set along the axes: 1/d^2 = sum 1/d_a^2, d_a the linear crossing towards neighbour a.
+double crossingDistance(const DenseField& phi, const Eigen::Vector3i& at, const Eigen::Vector3d& spacing) {
+  const double here = phi(at.x(), at.y(), at.z());
+  double sum = 0;
+  for (int a = 0; a < 3; ++a) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const int side : {-1, 1}) {
+      const Eigen::Vector3i n = at + side * Eigen::Vector3i::Unit(a);
+      if (n[a] < 0 || n[a] >= phi.size[a]) continue;
+      const double there = phi(n.x(), n.y(), n.z());
+      if ((here < 0) != (there < 0)) nearest = std::min(nearest, spacing[a] * here / (here - there));
+    }
+    if (nearest == 0) return 0;
+    sum += 1 / (nearest * nearest);
+  }
+  return 1 / std::sqrt(sum);
+}
+
+/// Closest point of the tricubic zero set by Chopp's two-part Newton step, x in index units:
+///     x += -P grad P / |grad P|^2 + (I - n n^T)(x0 - x),  n = grad P / |grad P|
+/// Empty when it does not settle within two samples of x0.
+std::optional<double> closestPointDistance(const DenseField& phi, const Eigen::Vector3d& x0,
+                                           const Eigen::Vector3d& spacing) {
+  constexpr int kSteps = 12;
+  constexpr double kSettled = 1e-4, kReach = 2;  // voxels
+  Eigen::Vector3d x = x0;
+  for (int step = 0; step < kSteps; ++step) {
+    const TricubicSample p = tricubicSample(phi, x);
+    const Eigen::Vector3d gradient = p.gradient.cwiseQuotient(spacing);  // per mm
+    const double squared = gradient.squaredNorm();
+    if (!(squared > 0)) return std::nullopt;
+    const Eigen::Vector3d back = (x0 - x).cwiseProduct(spacing);  // mm
+    const Eigen::Vector3d normal = (p.value / squared) * gradient;
+    const Eigen::Vector3d tangent = back - (back.dot(gradient) / squared) * gradient;
+    const Eigen::Vector3d move = (tangent - normal).cwiseQuotient(spacing);
+    x += move;
+    if ((x - x0).cwiseAbs().maxCoeff() > kReach) return std::nullopt;
+    if (move.cwiseAbs().maxCoeff() < kSettled) return (x - x0).cwiseProduct(spacing).norm();
+  }
+  return std::nullopt;
+}
+
+bool besideSurface(const DenseField& phi, int i, int j, int k) {
+  const float* here = phi.row(j, k) + i;
+  const std::ptrdiff_t dy = phi.size.x(), dz = dy * phi.size.y();
+  const bool inside = *here < 0;
+  const auto other = [&](std::ptrdiff_t step) { return (here[step] < 0) != inside; };
+  return (i > 0 && other(-1)) || (i + 1 < phi.size.x() && other(1)) || (j > 0 && other(-dy)) ||
+         (j + 1 < phi.size.y() && other(dy)) || (k > 0 && other(-dz)) || (k + 1 < phi.size.z() && other(dz));
+}
+
+/// The crossing bounds the distance from above up to the curvature within a voxel: a closest point much
+/// farther away belongs to another sheet or to a stray root.
+double seedDistance(const DenseField& phi, const Eigen::Vector3i& at, const Eigen::Vector3d& spacing) {
+  constexpr double kBeyondCrossing = 1.5;
+  const double crossing = crossingDistance(phi, at, spacing);
+  const double closest = closestPointDistance(phi, at.cast<double>(), spacing).value_or(crossing);
+  return closest > kBeyondCrossing * crossing ? crossing : closest;
+}
+
+}  // namespace
+
+std::vector<std::vector<SurfaceSeed>> surfaceSeeds(const DenseField& phi, const Eigen::Vector3d& spacing) {
+  const double leastInside = 1e-6 * spacing.minCoeff();  // zero would be outside
+  std::vector<std::vector<SurfaceSeed>> seeds(static_cast<std::size_t>(phi.size.z()));
+  tbb::parallel_for(0, phi.size.z(), [&](int k) {
+    for (int j = 0; j < phi.size.y(); ++j) {
+      for (int i = 0; i < phi.size.x(); ++i) {
+        if (!besideSurface(phi, i, j, k)) continue;
+        const double distance = seedDistance(phi, {i, j, k}, spacing);
+        const double value = phi(i, j, k) < 0 ? -std::max(distance, leastInside) : distance;
+        seeds[static_cast<std::size_t>(k)].push_back({i, j, static_cast<float>(value)});
+      }
+    }
+  });
+  return seeds;
+}
+
+}  // namespace sinew

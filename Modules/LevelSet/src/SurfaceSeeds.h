@@ -1,0 +1,18 @@
+#pragma once
+
+#include "sinew/LevelSet/DenseField.h"
+
+namespace sinew {
+
+/// A sample beside the surface and its signed distance, mm.
+struct SurfaceSeed {
+  int i, j;
+  float distance;  ///< never zero inside
+};
+
+/// The samples that have a neighbour (of six) on the other side, slice by slice in raster order, with the
+/// distance to the closest point of the tricubic interpolant's zero set. Cost: O(samples), slices in
+/// parallel.  Source: Chopp 2001.
+std::vector<std::vector<SurfaceSeed>> surfaceSeeds(const DenseField& phi, const Eigen::Vector3d& spacing);
+
+}  // namespace sinew
