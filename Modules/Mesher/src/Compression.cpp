@@ -9,7 +9,9 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <utility>
 
 namespace sinew {
 namespace {
@@ -20,16 +22,20 @@ constexpr std::size_t kGrain = 128;  // nodes per task
 constexpr double kFirstCap = 4;      // F that the first snap may cost
 constexpr double kLastCap = 14;
 constexpr double kCapGrowth = 1.25;  // per round
+constexpr double kStill = 0.002;     // edge lengths: a smaller step does not stir the neighbours
 constexpr int kFullRounds = 3;       // rounds after which only the surroundings of late nodes go on
 constexpr int kLateRings = 2;
 
 /// One stretch of smooth descent: sweeps on the sum of F^q over the nodes whose worst F is above a threshold.
+/// With low q it serves the mean; a step may then not raise the worst F of its star above the ceiling.
 struct Descent {
   int sweeps;
   int q;
-  double threshold;
+  double threshold = 0;
+  double ceiling = kInfinity;
 };
-constexpr std::array<Descent, 3> kPolish{{{3, 4, 0.0}, {4, 8, 1.5}, {6, 16, 2.0}}};
+constexpr Descent kSettle{2, 2};
+constexpr std::array<Descent, 4> kPolish{{{3, 4}, {4, 8, 1.5}, {6, 16, 2.0}, {3, 1, 0, 1.6}}};
 
 constexpr int kFinishSweeps = 16;
 constexpr int kFinishPower = 16;
@@ -46,6 +52,7 @@ class Compressor {
         tolerance_(options.surfaceTolerance * options.edgeLength),
         project_(phi, 0.5 * tolerance_),
         level_(active_.size(), 0.0),
+        stirred_(active_.size(), 1),
         awake_(active_.size(), 1) {
     for (std::size_t n = 0; n < active_.size(); ++n) {
       if (isBoundary(n)) level_[n] = phi.value(position(n));
@@ -58,15 +65,15 @@ class Compressor {
     for (; report.snapSweeps < options_.snapSweeps;
          ++report.snapSweeps, cap = std::min(kLastCap, cap * kCapGrowth)) {
       snap(cap);
-      relax(2, 0);
-      relax(2, 0);
+      descend(kSettle);
       const std::vector<std::int32_t> late = unsnapped();
       if (late.empty()) break;
       if (report.snapSweeps + 1 >= kFullRounds) wakeAround(late);
     }
     std::fill(awake_.begin(), awake_.end(), std::uint8_t{1});
     for (const Descent& descent : kPolish) {
-      for (int sweep = 0; sweep < descent.sweeps; ++sweep) relax(descent.q, descent.threshold);
+      std::fill(stirred_.begin(), stirred_.end(), std::uint8_t{1});
+      descend(descent);
     }
     finish();
     for (const std::int32_t n : unsnapped()) report.unsnapped.push_back(active_.nodes[n]);
@@ -124,35 +131,59 @@ class Compressor {
         const double level = fraction == 1.0 ? 0.0 : (1 - fraction) * level_[n];
         const std::optional<Vector3d> target = project_(position(n), level);
         if (!target || starValue(*target, active_.star(n), mesh_.nodes, 1).worst > cap) continue;
-        position(n) = *target;
+        moveTo(n, *target);
         level_[n] = level;
         return;
       }
     });
   }
 
-  /// One sweep of Newton steps over the nodes whose worst F is above the threshold.
-  void relax(int q, double threshold) {
-    forEachNode([&](std::int32_t n) {
-      if (threshold > 0 && starValue(position(n), active_.star(n), mesh_.nodes, 1).worst <= threshold) return;
-      isBoundary(n) ? slide(n, q) : descend(n, q);
-    });
+  void moveTo(std::int32_t n, const Vector3d& x) {
+    const double step2 = (x - position(n)).squaredNorm();
+    position(n) = x;
+    if (step2 < kStill * kStill * options_.edgeLength * options_.edgeLength) return;
+    stirred_[n] = 1;
+    for (const StarFaceNodes& face : active_.star(n)) {
+      for (const std::int32_t v : face) {
+        const std::int32_t other = active_.indexOf[v];
+        // Two nodes of one colour may share this neighbour.
+        if (other >= 0) std::atomic_ref(stirred_[other]).store(1, std::memory_order_relaxed);
+      }
+    }
   }
 
-  void descend(std::int32_t n, int q) {
+  /// Sweeps of Newton steps over the nodes whose worst F is above the threshold, and of these only those that
+  /// have moved, or seen a neighbour move, since their last turn.
+  void descend(const Descent& descent) {
+    for (int sweep = 0; sweep < descent.sweeps; ++sweep) {
+      forEachNode([&](std::int32_t n) {
+        if (std::exchange(stirred_[n], std::uint8_t{0}) == 0) return;
+        double ceiling = descent.ceiling;
+        if (descent.threshold > 0 || ceiling < kInfinity) {
+          const double worst = starValue(position(n), active_.star(n), mesh_.nodes, 1).worst;
+          if (worst <= descent.threshold) return;
+          ceiling = std::max(ceiling, worst);
+        }
+        isBoundary(n) ? slide(n, descent.q, ceiling) : step(n, descent.q, ceiling);
+      });
+    }
+  }
+
+  void step(std::int32_t n, int q, double ceiling) {
     const StarDerivatives d = starDerivatives(position(n), active_.star(n), mesh_.nodes, q);
     const Vector3d step = newtonStep<3>(d.hessian, d.gradient);
-    tryStep(n, d.energy, q, [&](double t) { return std::optional<Vector3d>(position(n) + t * step); });
+    tryStep(n, d.energy, q, ceiling,
+            [&](double t) { return std::optional<Vector3d>(position(n) + t * step); });
   }
 
   /// A step in the tangent plane, then back onto the node's level set.
-  void slide(std::int32_t n, int q) {
+  void slide(std::int32_t n, int q, double ceiling) {
     Eigen::Matrix<double, 3, 2> tangents;
     if (!tangentPlane(position(n), tangents)) return;
     const StarDerivatives d = starDerivatives(position(n), active_.star(n), mesh_.nodes, q);
     const Vector3d step = tangents * newtonStep<2>(tangents.transpose() * d.hessian * tangents,
                                                    tangents.transpose() * d.gradient);
-    tryStep(n, d.energy, q, [&](double t) { return project_(position(n) + t * step, level_[n]); });
+    tryStep(n, d.energy, q, ceiling, [&](double t) { return project_(position(n) + t * step, level_[n]); });
   }
 
   bool tangentPlane(const Vector3d& x, Eigen::Matrix<double, 3, 2>& tangents) const {
@@ -174,11 +205,13 @@ class Compressor {
   }
 
   template <class Target>
-  void tryStep(std::int32_t n, double energy, int q, const Target& target) {
+  void tryStep(std::int32_t n, double energy, int q, double ceiling, const Target& target) {
     for (const double t : {1.0, 0.5, 0.2}) {
       const std::optional<Vector3d> x = target(t);
-      if (x && starValue(*x, active_.star(n), mesh_.nodes, q).energy < energy) {
-        position(n) = *x;
+      if (!x) continue;
+      const StarValue value = starValue(*x, active_.star(n), mesh_.nodes, q);
+      if (value.energy < energy && value.worst <= ceiling) {
+        moveTo(n, *x);
         return;
       }
     }
@@ -263,8 +296,9 @@ class Compressor {
   ActiveNodes active_;
   double tolerance_;
   SurfaceProjection project_;
-  std::vector<double> level_;        ///< phi at each active boundary node, as it was put there; 0 elsewhere
-  std::vector<std::uint8_t> awake_;  ///< per active node: takes part in the present sweep
+  std::vector<double> level_;          ///< phi at each active boundary node, as it was put there; 0 elsewhere
+  std::vector<std::uint8_t> stirred_;  ///< per active node: its star has changed since its last turn
+  std::vector<std::uint8_t> awake_;    ///< per active node: takes part in the present sweep
 };
 
 }  // namespace

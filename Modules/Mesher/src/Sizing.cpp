@@ -18,6 +18,7 @@ constexpr double kCubeRadius = 0.867;     // sqrt(3)/2: half the diagonal of a c
 constexpr double kSurfaceLayer = 1.0;     // edge lengths on either side of the surface that are uniform
 constexpr double kLipschitzSlack = 1.05;  // a sampled distance may grow a little faster than the distance
 constexpr double kThinDepth = 0.6;        // of one cube size: phi one cube below the surface is no deeper
+constexpr double kWholesale = 0.15;       // of the surface asks for finer tets: then all of it gets them
 constexpr int kMargin = 3;  // cubes of level 0 around the bounds: two that overhang, one that stays whole
 
 /// Level -> cubes of that level that may hold tets within the layer around the surface.
@@ -84,6 +85,14 @@ class NearCubes {
   std::vector<std::vector<std::uint8_t>> flags_;
 };
 
+/// What a pass over the lattice asks for.
+struct Wishes {
+  std::vector<std::pair<int, BccTet>> tets;  ///< to be refined, coarse to fine along every branch
+  std::int64_t surface = 0;                  ///< tets of the surface level that the surface passes
+  std::int64_t finer = 0;                    ///< those of them that curvature or thickness want finer
+  bool mostFiner() const { return static_cast<double>(finer) > kWholesale * static_cast<double>(surface); }
+};
+
 /// Decides tet by tet, from level 0 downwards.
 class Refiner {
  public:
@@ -94,15 +103,15 @@ class Refiner {
         layer_(kSurfaceLayer * options.edgeLength),
         nearCubes_(plan, phi, layer_) {}
 
-  /// Appends the tets to be refined below a tet, itself included.
-  void collect(int level, const BccTet& tet, std::vector<std::pair<int, BccTet>>& wanted) const {
-    if (level + 1 >= plan_.levels || !wants(level, tet)) return;
-    wanted.emplace_back(level, tet);
-    for (const BccTet& child : redChildren(tet)) collect(level + 1, child, wanted);
+  /// Notes the tets to be refined below a tet, itself included.
+  void collect(int level, const BccTet& tet, Wishes& wishes) const {
+    if (level + 1 >= plan_.levels || !wants(level, tet, wishes)) return;
+    wishes.tets.emplace_back(level, tet);
+    for (const BccTet& child : redChildren(tet)) collect(level + 1, child, wishes);
   }
 
  private:
-  bool wants(int level, const BccTet& tet) const {
+  bool wants(int level, const BccTet& tet, Wishes& wishes) const {
     if (level <= nearCubes_.base() && !nearCubes_.near(level, tet)) return false;
     const double cube = plan_.cubeSize(level);
     const Eigen::Vector3d centre = centreOf(level, tet);
@@ -113,7 +122,12 @@ class Refiner {
     }
     if (std::abs(phi) > kLipschitzSlack * kTetRadius * cube) return false;
     if (0.5 * cube < options_.minEdgeLength * (1 - 1e-9)) return false;
-    return tooCoarse(cube, centre, phi);
+    const bool finer = tooCoarse(cube, centre, phi);
+    if (level == plan_.surfaceLevel) {
+      ++wishes.surface;
+      wishes.finer += finer;
+    }
+    return finer;
   }
 
   /// Curvature and thickness at the point of the surface below the centre of a tet.
@@ -171,21 +185,41 @@ LatticePlan planLattice(const SignedDistance& phi, const SizingOptions& options)
   return plan;
 }
 
-void refineToSize(RedGreenLattice& lattice, const LatticePlan& plan, const SignedDistance& phi,
-                  const SizingOptions& options) {
+namespace {
+
+Wishes collectWishes(const LatticePlan& plan, const SignedDistance& phi, const SizingOptions& options) {
   const Refiner refiner(plan, phi, options);
   const Int3 n = plan.coarseCells;
-  std::vector<std::vector<std::pair<int, BccTet>>> wanted(n.z);
+  std::vector<Wishes> layers(n.z);
   tbb::parallel_for(1, n.z - 1, [&](int z) {
     for (int y = 1; y < n.y - 1; ++y) {
       for (int x = 1; x < n.x - 1; ++x) {
-        for (const BccTet& tet : RedGreenLattice::coarseTets({x, y, z})) refiner.collect(0, tet, wanted[z]);
+        for (const BccTet& tet : RedGreenLattice::coarseTets({x, y, z})) refiner.collect(0, tet, layers[z]);
       }
     }
   });
-  for (const auto& layer : wanted) {
-    for (const auto& [level, tet] : layer) lattice.refine(level, tet);
+  Wishes all;
+  for (const Wishes& layer : layers) {
+    all.tets.insert(all.tets.end(), layer.tets.begin(), layer.tets.end());
+    all.surface += layer.surface;
+    all.finer += layer.finer;
   }
+  return all;
+}
+
+}  // namespace
+
+void refineToSize(RedGreenLattice& lattice, const LatticePlan& plan, const SignedDistance& phi,
+                  const SizingOptions& options) {
+  LatticePlan uniform = plan;
+  SizingOptions sizes = options;
+  Wishes wishes = collectWishes(uniform, phi, sizes);
+  while (wishes.mostFiner()) {
+    ++uniform.surfaceLevel;
+    sizes.edgeLength *= 0.5;
+    wishes = collectWishes(uniform, phi, sizes);
+  }
+  for (const auto& [level, tet] : wishes.tets) lattice.refine(level, tet);
   lattice.close();
 }
 
