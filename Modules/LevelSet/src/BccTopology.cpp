@@ -1,5 +1,6 @@
 #include "BccTopology.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -23,10 +24,10 @@ int isCut(int first, Vertices... others) {
 BccTopology::BccTopology(int nx, int ny) : nx_(nx), ny_(ny) {
   const auto samples = static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny);
   previous_.assign(samples, 1.0F);
-  for (Slice* s : {&belowLower_, &below_, &above_})
-    *s = {std::vector<std::uint8_t>(samples, 0), std::vector<std::int32_t>(samples, 0)};
-  for (Layer* l : {&lower_, &upper_})
-    *l = {std::vector<std::uint8_t>(samples, 0), std::vector<std::int32_t>(samples, 0)};
+  for (Slice* s : {&belowLower_, &below_, &above_, &lower_, &upper_}) {
+    s->inside.assign(samples, 0);
+    s->piece.assign(samples, 0);
+  }
 }
 
 std::int32_t BccTopology::find(std::int32_t node) const {

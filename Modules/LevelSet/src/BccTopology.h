@@ -6,8 +6,7 @@
 namespace sinew {
 
 /// Pieces and surface of a body on the body-centred cubic split of a grid, fed slice by slice; see
-/// levelSetTopology. One sample more than a sign is not needed: the centres' values are the means of their
-/// corners.
+/// levelSetTopology.
 class BccTopology {
  public:
   /// @param nx,ny  samples of a slice; the body stays clear of the outermost two
@@ -21,13 +20,10 @@ class BccTopology {
   std::int64_t eulerCharacteristic() const { return euler_; }
 
  private:
+  /// A slice of samples, or the layer of cell centres between two slices.
   struct Slice {
     std::vector<std::uint8_t> inside;
     std::vector<std::int32_t> piece;  ///< union-find node, where inside
-  };
-  struct Layer {  ///< cell centres between two slices
-    std::vector<std::uint8_t> inside;
-    std::vector<std::int32_t> piece;
   };
 
   void labelSlice(const float* phi);
@@ -42,7 +38,7 @@ class BccTopology {
   std::vector<float> previous_;
   Slice below_, above_;  ///< the last two slices
   Slice belowLower_;     ///< the slice before them
-  Layer lower_, upper_;  ///< centres between belowLower_ and below_, and between below_ and above_
+  Slice lower_, upper_;  ///< centres between belowLower_ and below_, and between below_ and above_
   mutable std::vector<std::int32_t> parent_;
 };
 

@@ -95,8 +95,8 @@ SurfaceField smoothedField(const LabelCrop& crop, std::int64_t voxels, const Eig
   }
   field.iso = volumeKeepingIso(field.values, voxels);
   subtractSurfaceLevel(field.values, crop.mask, sigma, field.iso);
-  restoreSmallPieces(field.values, crop.mask,
-                     static_cast<float>(field.iso) - 1);  // the value of a voxel not smoothed
+  const double notSmoothed = field.iso - 1;
+  restoreSmallPieces(field.values, crop.mask, static_cast<float>(notSmoothed));
   return field;
 }
 

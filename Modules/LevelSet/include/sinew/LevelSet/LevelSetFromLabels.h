@@ -14,7 +14,7 @@ struct LevelSetFromLabelsOptions {
 
 /// What the conversion did to the tissue.
 struct LevelSetFromLabelsReport {
-  double isoValue = 0;             ///< value of the smoothed field that keeps the label's volume
+  double isoValue = 0;             ///< value of the smoothed mask that keeps the label's number of voxels
   bool shapeInterpolated = false;  ///< the slice-wise path was taken
   double labelVolume = 0;          ///< voxels times voxel volume, mm^3
   double levelSetVolume = 0;       ///< volume of phi < 0, mm^3
@@ -24,11 +24,17 @@ struct LevelSetFromLabelsReport {
 /// (cube root of its volume), mm.
 double defaultGridSpacing(const ImageGeometry& geometry);
 
-/// Turns the voxels of one tissue into a signed distance: crop with a margin, Gauss with the iso value that keeps the
-/// label's volume (or slice-wise 2-D distances and Catmull-Rom across thick slices), resampling to an isotropic grid,
-/// second-order narrow-band fast marching.
+/// Turns the voxels of one tissue into a signed distance: crop with a margin of background, Gauss with the iso value
+/// that keeps the label's volume and with levels of their own for thin parts, or slice-wise 2-D distances and shape
+/// interpolation across thick slices, resampling to an isotropic grid, second-order narrow-band fast marching, and an
+/// offset (below half a voxel) that makes the volume right. The grid's axes are the rotation nearest to the image's;
+/// one is reversed where the image is left-handed, and the axis across thick slices comes last.
+///
+/// Pieces of a few voxels that smoothing would wipe out stay as they were drawn; a tissue that would vanish as a whole
+/// is smoothed less.
 /// @throws std::invalid_argument on options out of range or a tissue without voxels.
-/// Cost: O(box of the tissue) plus O(band log band).
+/// Cost: O(box of the tissue) plus O(band); memory: one float per sample of the level set's box, and less than half as
+/// much again.
 LevelSet levelSetFromLabels(const Segmentation& segmentation, const Tissue& tissue,
                             const LevelSetFromLabelsOptions& options = {}, LevelSetFromLabelsReport* report = nullptr);
 
