@@ -185,32 +185,47 @@ TEST(Sizing, CurvatureRefinesTheInnerRingOfATorus) {
   EXPECT_GT(outer, 0);
 }
 
-/// Levels of the leaves at the surface of a plate of the given thickness, away from its rim.
-std::pair<int, int> levelsOnPlate(double thickness, const SizingOptions& options) {
-  const test::AnalyticBox plate({-8, -8, 0}, {8, 8, thickness}, {.resolution = 0.2});
-  const Sized s = sized(plate, options);
+/// Lowest and highest level of the leaves that the surface passes, from the surface level up.
+std::pair<int, int> levelsAtTheSurface(const SignedDistance& phi, const SizingOptions& options) {
+  const Sized s = sized(phi, options);
   std::pair<int, int> range{99, -99};
   for (const LatticeTet& leaf : s.leaves) {
-    const Vector3d x = s.corners(leaf)[0];
-    if (std::max(std::abs(x.x()), std::abs(x.y())) > 3 || !changesSign(s, plate, leaf)) continue;
-    range = {std::min(range.first, leaf.level - s.plan.surfaceLevel),
-             std::max(range.second, leaf.level - s.plan.surfaceLevel)};
+    if (!changesSign(s, phi, leaf)) continue;
+    const int level = leaf.level - s.plan.surfaceLevel;
+    range = {std::min(range.first, level), std::max(range.second, level)};
   }
   return range;
 }
 
-TEST(Sizing, ThinPlatesAreRefinedUntilTheyHoldEnoughCubes) {
+TEST(Sizing, ThinWallsAreRefinedUntilTheyHoldEnoughCubes) {
+  const auto shell = [](double thickness) {  // of one thickness everywhere, without a rim
+    const AnalyticOptions options{.resolution = 0.2};
+    const double outer = 2.5 + thickness;
+    return test::AnalyticDifference(std::make_shared<test::AnalyticSphere>(Vector3d::Zero(), outer),
+                                    std::make_shared<test::AnalyticSphere>(Vector3d::Zero(), 2.5), options);
+  };
   using Levels = std::pair<int, int>;
   SizingOptions options{
       .edgeLength = 1, .maxEdgeLength = 4, .minEdgeLength = 0.2, .curvature = 0, .thickness = 1.6};
-  EXPECT_EQ(levelsOnPlate(3, options), Levels(0, 0));
-  EXPECT_EQ(levelsOnPlate(1, options), Levels(1, 1));    // 1 mm holds 1.6 cubes of 0.5 mm
-  EXPECT_EQ(levelsOnPlate(0.5, options), Levels(2, 2));  // and 0.5 mm those of 0.25 mm
+  EXPECT_EQ(levelsAtTheSurface(shell(2.5), options), Levels(0, 0));
+  EXPECT_EQ(levelsAtTheSurface(shell(1), options), Levels(1, 1));    // 1 mm holds 1.6 cubes of 0.5 mm
+  EXPECT_EQ(levelsAtTheSurface(shell(0.5), options), Levels(2, 2));  // and 0.5 mm those of 0.25 mm
   options.minEdgeLength = 0.5;
-  EXPECT_EQ(levelsOnPlate(0.5, options), Levels(1, 1));
+  EXPECT_EQ(levelsAtTheSurface(shell(0.5), options), Levels(1, 1));
   options.minEdgeLength = 0.2;
   options.thickness = 0;
-  EXPECT_EQ(levelsOnPlate(0.5, options), Levels(0, 0));
+  EXPECT_EQ(levelsAtTheSurface(shell(0.5), options), Levels(0, 0));
+}
+
+TEST(Sizing, ASurfaceThatAsksInManyPlacesIsRefinedAsAWhole) {
+  // Edges and corners take up most of a small box, little of a large one.
+  const SizingOptions options{
+      .edgeLength = 1, .maxEdgeLength = 4, .minEdgeLength = 0.5, .curvature = 0, .thickness = 1.6};
+  const test::AnalyticBox small(Vector3d::Constant(-1.7), Vector3d::Constant(1.7)),
+      large(Vector3d::Constant(-16.2), Vector3d::Constant(16.2));
+  using Levels = std::pair<int, int>;
+  EXPECT_EQ(levelsAtTheSurface(small, options), Levels(1, 1));
+  EXPECT_EQ(levelsAtTheSurface(large, options), Levels(0, 1));
 }
 
 TEST(Sizing, LevelsOptionCapsTheRefinement) {
