@@ -219,31 +219,28 @@ class Compressor {
 
   /// The last descent: on the sum of m^p over the stars of the nodes of tets that miss the goals.
   void finish() {
-    for (int sweep = 0; sweep < kFinishSweeps; ++sweep) {
-      if (!wakeWorst()) break;
+    for (int sweep = 0; sweep < kFinishSweeps && wakeWorst(); ++sweep) {
       forEachNode([&](std::int32_t n) { descendGoal(n); });
     }
     std::fill(awake_.begin(), awake_.end(), std::uint8_t{1});
   }
 
+  /// Wakes the active nodes of tets that miss the goals. Only tets with a node that was awake can have
+  /// changed, and a tet without one was good.
   bool wakeWorst() {
-    std::fill(awake_.begin(), awake_.end(), std::uint8_t{0});
-    bool any = false;
+    std::vector<std::uint8_t> awake(active_.size(), 0);
     const auto& x = mesh_.nodes;
     for (const Tet& tet : mesh_.tets) {
-      if (active_.indexOf[tet[0]] < 0 && active_.indexOf[tet[1]] < 0 && active_.indexOf[tet[2]] < 0 &&
-          active_.indexOf[tet[3]] < 0) {
-        continue;
-      }
-      if (goalMeasure(x[tet[3]], x[tet[0]], x[tet[1]], x[tet[2]]) <= kFinishAbove) continue;
+      const bool changed = std::any_of(tet.begin(), tet.end(), [&](std::int32_t v) {
+        return active_.indexOf[v] >= 0 && awake_[active_.indexOf[v]] != 0;
+      });
+      if (!changed || goalMeasure(x[tet[3]], x[tet[0]], x[tet[1]], x[tet[2]]) <= kFinishAbove) continue;
       for (const std::int32_t v : tet) {
-        const std::int32_t n = active_.indexOf[v];
-        if (n < 0) continue;
-        awake_[n] = 1;
-        any = true;
+        if (active_.indexOf[v] >= 0) awake[active_.indexOf[v]] = 1;
       }
     }
-    return any;
+    awake_.swap(awake);
+    return std::find(awake_.begin(), awake_.end(), std::uint8_t{1}) != awake_.end();
   }
 
   double goalEnergy(const Vector3d& x, std::int32_t n) const {

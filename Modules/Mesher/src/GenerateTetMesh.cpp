@@ -1,16 +1,13 @@
 #include "sinew/Mesher/GenerateTetMesh.h"
 
-#include "ActiveNodes.h"
+#include "RetreatingCompression.h"
 #include "sinew/Mesher/Candidate.h"
-#include "sinew/Mesher/Compression.h"
 #include "sinew/Mesher/LatticeMesh.h"
-#include "sinew/Mesher/MeshQuality.h"
 #include "sinew/Mesher/Sizing.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 namespace sinew {
@@ -61,129 +58,12 @@ SizingOptions sizingOptions(const SignedDistance& phi, const GenerateTetMeshOpti
   return sizing;
 }
 
-/// What a mesh must not exceed without the candidate giving way.
-constexpr double kMaxAspectRatio = 4.2;
-constexpr double kMinDihedralDeg = 20;
-constexpr double kMaxDihedralDeg = 142;
-constexpr int kMaxRetreats = 16;
-constexpr int kGentleRetreats = 4;  // rounds that give up one node at each trouble; later ones give up all
-constexpr double kLargestRetreat = 0.1;  // fraction of the tets that may be given up, of large meshes
-constexpr double kSmallMesh = 1000;      // tets below which a mesh may shrink to nothing
-constexpr int kRetreatRings = 4;         // rings of nodes around a retreat that move again
-
-std::vector<Trouble> findTroubles(const TetMesh& mesh, const std::vector<std::int32_t>& latticeNodes,
-                                  const std::vector<std::int32_t>& unsnapped) {
-  std::vector<Trouble> troubles;
-  for (const std::int32_t n : unsnapped) troubles.push_back({latticeNodes[n]});
-  for (const Tet& tet : mesh.tets) {
-    const TetQuality quality =
-        tetQuality(mesh.nodes[tet[0]], mesh.nodes[tet[1]], mesh.nodes[tet[2]], mesh.nodes[tet[3]]);
-    if (quality.aspectRatio <= kMaxAspectRatio && quality.minDihedralDeg >= kMinDihedralDeg &&
-        quality.maxDihedralDeg <= kMaxDihedralDeg) {
-      continue;
-    }
-    troubles.push_back(
-        {latticeNodes[tet[0]], latticeNodes[tet[1]], latticeNodes[tet[2]], latticeNodes[tet[3]]});
-  }
-  return troubles;
-}
-
-/// The candidate on its way onto the surface, and what is wrong with it so far.
-class Compaction {
- public:
-  Compaction(const LatticeMesh& background, const NodeStars& stars, Candidate& candidate,
-             const SignedDistance& phi, const GenerateTetMeshOptions& options)
-      : background_(background),
-        stars_(stars),
-        candidate_(candidate),
-        phi_(phi),
-        label_(options.label),
-        compression_{.edgeLength = options.edgeLength},
-        mesh_(extractMesh(background, candidate.keep, options.label, &latticeNodes_)) {
-    compress({});
-  }
-
-  const TetMesh& mesh() const { return mesh_; }
-  const std::vector<Trouble>& troubles() const { return troubles_; }
-  /// Whether every boundary node has reached the surface.
-  std::size_t unsnapped() const { return unsnapped_; }
-
-  /// Lets the candidate give way at the troubles and compresses the surroundings again.
-  void giveWay(bool thoroughly) {
-    const std::vector<std::int32_t> released =
-        retreat(background_, stars_, candidate_, troubles_, thoroughly);
-    std::vector<Eigen::Vector3d> reached(background_.positions.size());
-    for (std::size_t n = 0; n < latticeNodes_.size(); ++n) reached[latticeNodes_[n]] = mesh_.nodes[n];
-    mesh_ = extractMesh(background_, candidate_.keep, label_, &latticeNodes_);
-
-    std::vector<std::uint8_t> around(background_.positions.size(), 0);
-    for (const std::int32_t n : released) {
-      for (const std::int32_t t : stars_.of(n)) {
-        for (const std::int32_t v : background_.tets[t]) around[v] = 1;
-      }
-    }
-    std::vector<std::uint8_t> region(mesh_.nodes.size(), 0);
-    for (std::size_t n = 0; n < latticeNodes_.size(); ++n) {
-      mesh_.nodes[n] = reached[latticeNodes_[n]];
-      region[n] = around[latticeNodes_[n]];
-    }
-    growRings(mesh_, kRetreatRings, region);
-    compress(region);
-  }
-
- private:
-  void compress(const std::vector<std::uint8_t>& region) {
-    const CompressionReport report = compressOntoSurface(mesh_, phi_, compression_, region);
-    unsnapped_ = report.unsnapped.size();
-    troubles_ = findTroubles(mesh_, latticeNodes_, report.unsnapped);
-  }
-
-  const LatticeMesh& background_;
-  const NodeStars& stars_;
-  Candidate& candidate_;
-  const SignedDistance& phi_;
-  std::int32_t label_;
-  CompressionOptions compression_;
-  std::vector<std::int32_t> latticeNodes_;
-  TetMesh mesh_;
-  std::vector<Trouble> troubles_;
-  std::size_t unsnapped_ = 0;
-};
-
 double maxBoundaryPhi(const TetMesh& mesh, const SignedDistance& phi) {
   double largest = 0;
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
     if (mesh.kinds[n] == NodeKind::Boundary) largest = std::max(largest, std::abs(phi.value(mesh.nodes[n])));
   }
   return largest;
-}
-
-/// The best mesh on the surface among those that the retreats lead to.
-TetMesh compressWithRetreats(const LatticeMesh& background, const NodeStars& stars, Candidate& candidate,
-                             const SignedDistance& phi, const GenerateTetMeshOptions& options,
-                             GenerateTetMeshReport& report) {
-  Compaction compaction(background, stars, candidate, phi, options);
-  const double smallest =
-      (1 - kLargestRetreat) * static_cast<double>(compaction.mesh().tets.size()) - kSmallMesh;
-  TetMesh best;
-  std::size_t fewest = std::numeric_limits<std::size_t>::max();
-  while (true) {
-    if (compaction.unsnapped() == 0 && compaction.troubles().size() < fewest) {
-      fewest = compaction.troubles().size();
-      best = compaction.mesh();
-    }
-    if (compaction.troubles().empty() || report.retreats == kMaxRetreats) break;
-    compaction.giveWay(++report.retreats > kGentleRetreats);
-    if (compaction.mesh().tets.empty() || static_cast<double>(compaction.mesh().tets.size()) < smallest)
-      break;
-  }
-  if (fewest == std::numeric_limits<std::size_t>::max()) {
-    throw std::runtime_error(
-        std::to_string(compaction.unsnapped()) +
-        " boundary nodes cannot reach the surface without crushing tets; try a smaller edge length");
-  }
-  report.maxBoundaryPhi = maxBoundaryPhi(best, phi);
-  return best;
 }
 
 }  // namespace
@@ -215,7 +95,10 @@ TetMesh generateTetMesh(const SignedDistance& phi, const GenerateTetMeshOptions&
   }
 
   clock.start("compression", 0.5);
-  TetMesh mesh = compressWithRetreats(background, stars, candidate, phi, options, out);
+  TetMesh mesh =
+      compressWithRetreats(background, stars, candidate, phi,
+                           {.edgeLength = options.edgeLength, .label = options.label}, out.retreats);
+  out.maxBoundaryPhi = maxBoundaryPhi(mesh, phi);
   clock.stop();
   if (options.progress) options.progress("compression", 1);
   return mesh;
