@@ -30,6 +30,10 @@ namespace parameters = CGAL::parameters;
 struct Options {
   std::string input, tissue, output;
   double cellSize = 0;  ///< CGAL's cell_size, mm
+  // The other criteria as in the example, which has facet_size 6, facet_distance 4 and cell_size 8.
+  double facetSize = 0.75;     ///< in cell sizes
+  double facetDistance = 0.5;  ///< in cell sizes
+  double radiusEdgeRatio = 3;
   bool withoutExude = false, withoutPerturb = false, readOnly = false;
 };
 
@@ -53,16 +57,16 @@ CGAL::Image_3 cropImage(const Segmentation& segmentation, const Tissue& tissue, 
   return CGAL::Image_3(image);
 }
 
-/// The proportions of the example: facet_size 6, facet_distance 4, cell_size 8.
-Criteria criteriaOfSize(double cellSize) {
-  return Criteria(parameters::facet_angle = 30, parameters::facet_size = 0.75 * cellSize,
-                  parameters::facet_distance = 0.5 * cellSize, parameters::cell_radius_edge_ratio = 3,
-                  parameters::cell_size = cellSize);
+Criteria criteria(const Options& options) {
+  return Criteria(parameters::facet_angle = 30, parameters::facet_size = options.facetSize * options.cellSize,
+                  parameters::facet_distance = options.facetDistance * options.cellSize,
+                  parameters::cell_radius_edge_ratio = options.radiusEdgeRatio,
+                  parameters::cell_size = options.cellSize);
 }
 
 Complex meshImage(const CGAL::Image_3& image, const Options& options) {
   const Domain domain = Domain::create_labeled_image_mesh_domain(image);
-  return CGAL::make_mesh_3<Complex>(domain, criteriaOfSize(options.cellSize),
+  return CGAL::make_mesh_3<Complex>(domain, criteria(options),
                                     options.withoutPerturb ? parameters::no_perturb() : parameters::perturb(),
                                     options.withoutExude ? parameters::no_exude() : parameters::exude());
 }
@@ -115,6 +119,11 @@ int main(int argc, char** argv) {
   app.add_option("TISSUE", options.tissue, "name or label")->required();
   app.add_option("SIZE", options.cellSize, "CGAL's cell_size, mm; the other criteria follow it")->required();
   app.add_option("OUTPUT", options.output, "mesh to write: .vtu")->required();
+  app.add_option("--facet-size", options.facetSize, "facet_size, in cell sizes")->capture_default_str();
+  app.add_option("--facet-distance", options.facetDistance, "facet_distance, in cell sizes")
+      ->capture_default_str();
+  app.add_option("--radius-edge-ratio", options.radiusEdgeRatio, "cell_radius_edge_ratio")
+      ->capture_default_str();
   app.add_flag("--no-exude", options.withoutExude, "leave out the sliver exudation");
   app.add_flag("--no-perturb", options.withoutPerturb, "leave out the sliver perturbation");
   app.add_flag("--read-only", options.readOnly, "read the segmentation and stop");
