@@ -55,7 +55,9 @@ class Compressor {
         stirred_(active_.size(), 1),
         awake_(active_.size(), 1) {
     for (std::size_t n = 0; n < active_.size(); ++n) {
-      if (isBoundary(n)) level_[n] = phi.value(position(n));
+      if (!isBoundary(n)) continue;
+      const double level = phi.value(position(n));
+      if (std::abs(level) > tolerance_) level_[n] = level;
     }
   }
 
@@ -87,7 +89,7 @@ class Compressor {
   std::vector<std::int32_t> unsnapped() const {
     std::vector<std::int32_t> list;
     for (std::size_t n = 0; n < level_.size(); ++n) {
-      if (std::abs(level_[n]) > tolerance_) list.push_back(static_cast<std::int32_t>(n));
+      if (level_[n] != 0) list.push_back(static_cast<std::int32_t>(n));
     }
     return list;
   }
@@ -126,7 +128,7 @@ class Compressor {
   /// Moves boundary nodes towards phi = 0 as far as the cap on F allows.
   void snap(double cap) {
     forEachNode([&](std::int32_t n) {
-      if (!isBoundary(n) || std::abs(level_[n]) <= tolerance_) return;
+      if (!isBoundary(n) || level_[n] == 0) return;
       for (const double fraction : {1.0, 0.6, 0.3, 0.1}) {
         const double level = fraction == 1.0 ? 0.0 : (1 - fraction) * level_[n];
         const std::optional<Vector3d> target = project_(position(n), level);

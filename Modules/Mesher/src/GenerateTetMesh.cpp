@@ -38,13 +38,21 @@ class StageClock {
 
 constexpr double kBandEdges = 2;  // how far from the surface phi must be exact
 
+void requireThat(bool holds, const char* what) {
+  if (!holds) throw std::invalid_argument(std::string("generateTetMesh: ") + what);
+}
+
 SizingOptions sizingOptions(const SignedDistance& phi, const GenerateTetMeshOptions& options) {
-  if (!(options.edgeLength > 0) || !std::isfinite(options.edgeLength)) {
-    throw std::invalid_argument("generateTetMesh: edgeLength must be a length above 0 mm");
-  }
-  if (phi.band() < kBandEdges * options.edgeLength) {
-    throw std::invalid_argument("generateTetMesh: phi must be known up to two edge lengths from its surface");
-  }
+  requireThat(options.edgeLength > 0 && std::isfinite(options.edgeLength),
+              "edgeLength must be a length above 0 mm");
+  requireThat(options.maxEdgeLength >= 0 && std::isfinite(options.maxEdgeLength),
+              "maxEdgeLength must be a length or 0");
+  requireThat(options.maxEdgeLength == 0 || options.maxEdgeLength >= options.edgeLength,
+              "maxEdgeLength must not be below edgeLength");
+  requireThat(options.curvature >= 0, "curvature must not be negative");
+  requireThat(options.levels >= 0, "levels must not be negative");
+  requireThat(phi.band() >= kBandEdges * options.edgeLength,
+              "phi must be known up to two edge lengths from its surface");
   SizingOptions sizing;
   sizing.edgeLength = options.edgeLength;
   sizing.maxEdgeLength = options.maxEdgeLength > 0 ? options.maxEdgeLength : 8 * options.edgeLength;
@@ -52,9 +60,6 @@ SizingOptions sizingOptions(const SignedDistance& phi, const GenerateTetMeshOpti
   sizing.curvature = options.curvature;
   if (options.curvature <= 0) sizing.thickness = 0;
   sizing.levels = options.levels;
-  if (sizing.maxEdgeLength < sizing.edgeLength) {
-    throw std::invalid_argument("generateTetMesh: maxEdgeLength must not be below edgeLength");
-  }
   return sizing;
 }
 
@@ -111,8 +116,10 @@ double estimateMemory(const SignedDistance& phi, const GenerateTetMeshOptions& o
   constexpr double kBytesPerTet =
       400;  // measured at the peak of the compression, bits of the lattice included
   const SizingOptions sizing = sizingOptions(phi, options);
-  const double cube = std::max(sizing.edgeLength, 0.5 * phi.band());
+  constexpr double kSamplesAcross = 64;  // at least, in a shape that is known everywhere
   const Eigen::AlignedBox3d box = phi.bounds();
+  const double cube =
+      std::max(sizing.edgeLength, std::min(0.5 * phi.band(), box.sizes().maxCoeff() / kSamplesAcross));
   const Eigen::Array3i cells = (box.sizes() / cube).array().ceil().cast<int>();
   double surfaceCubes = 0, insideCubes = 0;
   for (int z = 0; z < cells.z(); ++z) {
