@@ -124,16 +124,15 @@ TextTable tissueTable(const std::vector<TissueReport>& reports) {
 
 void printResult(std::ostream& stream, const MeshingReport& run, const std::filesystem::path& reportFile) {
   tissueTable(run.tissues).print(stream);
+  stream << '\n';
   for (const TissueReport& report : run.tissues)
     if (!report.message.empty())
-      stream << "\n"
-             << printable(report.name) << " (" << toString(report.status)
-             << "): " << printable(report.message);
+      stream << printable(report.name) << " (" << toString(report.status)
+             << "): " << printable(report.message) << '\n';
   std::int64_t tets = 0;
   for (const TissueReport& report : run.tissues)
     if (report.status == TissueStatus::Meshed) tets += report.quality.tets;
-  stream << "\n\n"
-         << countOf(TissueStatus::Meshed, run.tissues) << " meshed, "
+  stream << countOf(TissueStatus::Meshed, run.tissues) << " meshed, "
          << countOf(TissueStatus::Lost, run.tissues) << " lost, "
          << countOf(TissueStatus::Failed, run.tissues) << " failed; " << grouped(tets) << " tets in "
          << fixed(run.seconds, 1) << " s, peak memory " << formatBytes(run.peakMemory)

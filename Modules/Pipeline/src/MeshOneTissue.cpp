@@ -8,6 +8,7 @@
 #include "sinew/Segmentation/LabelComponents.h"
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <new>
 #include <numeric>
@@ -59,17 +60,6 @@ std::string unsoundness(const MeshQuality& quality, const MeshConditions& condit
   return text;
 }
 
-/// The mesher looks for the surface up to two edge lengths away; samples much finer than the lattice buy
-/// nothing.
-LevelSetFromLabelsOptions levelSetOptions(const ImageGeometry& geometry, double edgeLength,
-                                          LevelSetFromLabelsOptions options) {
-  constexpr double kBandEdges = 2.1, kSamplesPerEdge = 8;
-  if (options.gridSpacing <= 0)
-    options.gridSpacing = std::max(defaultGridSpacing(geometry), edgeLength / kSamplesPerEdge);
-  options.bandVoxels = std::max(options.bandVoxels, kBandEdges * edgeLength / options.gridSpacing);
-  return options;
-}
-
 /// The steps of one tissue, with what they share.
 class TissueRun {
  public:
@@ -112,9 +102,7 @@ class TissueRun {
   /// The mesh in LPS; leaves the level set behind for measure().
   TetMesh generate() {
     advance("level set", 0);
-    LevelSet levelSet = levelSetFromLabels(
-        segmentation_, tissue_, levelSetOptions(segmentation_.geometry, job_.sizes.edge, options_.levelSet),
-        &volumes_);
+    LevelSet levelSet = levelSetFromLabels(segmentation_, tissue_, job_.levelSet, &volumes_);
     frame_ = levelSet.frame;
     surface_ = std::make_unique<LevelSetSurface>(levelSet);
     levelSet.grid.reset();
@@ -171,9 +159,20 @@ class TissueRun {
   }
 
   std::string warning() const {
-    if (report_.lost.components == 0) return "";
-    return std::to_string(report_.lost.components) + (report_.lost.components == 1 ? " piece" : " pieces") +
-           " of " + number(report_.lost.volume) + " mm^3 in all too small for the lattice";
+    constexpr double kLargeVolumeError = 0.2;
+    std::vector<std::string> parts;
+    if (job_.sizeReduced)
+      parts.push_back("edge length reduced to " + number(job_.sizes.edge) + " mm, the extent of the tissue");
+    const double ratio = report_.fidelity.volume / report_.fidelity.labelVolume;
+    if (std::abs(ratio - 1) > kLargeVolumeError)
+      parts.push_back("volume is " + number(100 * ratio) + " % of the label's; a smaller --size may help");
+    if (report_.lost.components > 0)
+      parts.push_back(std::to_string(report_.lost.components) +
+                      (report_.lost.components == 1 ? " piece" : " pieces") + " of " +
+                      number(report_.lost.volume) + " mm^3 in all too small to keep");
+    std::string text;
+    for (const std::string& part : parts) text += (text.empty() ? "" : "; ") + part;
+    return text;
   }
 
   void lap(const std::string& stage) { report_.seconds.emplace_back(stage, watch_.lap()); }

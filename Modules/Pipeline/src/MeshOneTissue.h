@@ -6,17 +6,14 @@
 
 namespace sinew {
 
-struct TissueSizes {
-  double edge = 0;     ///< cube size at the surface, mm
-  double largest = 0;  ///< deep inside, mm
-};
-
 /// One tissue of a run.
 struct TissueJob {
   std::size_t slot = 0;  ///< place in the list of reports
   int tissue = 0;        ///< index into the segmentation's table
   std::string file;      ///< name inside the output folder
   TissueSizes sizes;
+  bool sizeReduced = false;  ///< the wanted edge length was larger than the tissue
+  LevelSetFromLabelsOptions levelSet;
   TissueCost cost;
 };
 

@@ -52,12 +52,15 @@ int tissuesInFlight(const Segmentation& segmentation, const std::vector<TissueJo
   const TissueJob& largest = jobs.front();
   const Tissue& tissue = segmentation.tissues[largest.tissue];
   if (largest.cost.memory > available) {
-    const double fitting = largest.sizes.edge * std::sqrt(largest.cost.memory / available);
+    const double fitting =
+        std::ceil(100 * largest.sizes.edge * std::sqrt(largest.cost.memory / available)) / 100;
+    const std::string remedy = largest.cost.ofVoxels > available / 2
+                                   ? "; use a smaller edge length"
+                                   : "; use " + toString(fitting) + " or more";
     throw std::invalid_argument(segmentation.source + ": '" + tissue.name + "' at edge length " +
                                 toString(largest.sizes.edge) + " would take about " +
                                 formatBytes(largest.cost.memory) + " of memory, but " +
-                                formatBytes(available) + " is available; use " +
-                                toString(std::ceil(fitting * 100) / 100) + " or more");
+                                formatBytes(available) + " is available" + remedy);
   }
   const auto threads = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
   double memory = 0;
@@ -70,16 +73,46 @@ int tissuesInFlight(const Segmentation& segmentation, const std::vector<TissueJo
   return count;
 }
 
+/// A cube larger than the tissue stands for nothing: no edge length exceeds the tissue's largest extent.
+TissueSizes fittingSizes(const ImageGeometry& geometry, const Tissue& tissue, const TissueSizes& wanted) {
+  const Eigen::Vector3d sides =
+      (tissue.box.upper - tissue.box.lower).cast<double>().cwiseProduct(geometry.spacing);
+  const double extent = sides.maxCoeff();
+  return {std::min(wanted.edge, extent), std::min(wanted.largest, extent)};
+}
+
+/// The mesher looks for the surface up to two edge lengths away; samples much finer than the lattice buy
+/// nothing.
+LevelSetFromLabelsOptions levelSetOptions(const ImageGeometry& geometry, double edgeLength,
+                                          LevelSetFromLabelsOptions options) {
+  constexpr double kBandEdges = 2.1, kSamplesPerEdge = 8;
+  if (options.gridSpacing <= 0)
+    options.gridSpacing = std::max(defaultGridSpacing(geometry), edgeLength / kSamplesPerEdge);
+  options.bandVoxels = std::max(options.bandVoxels, kBandEdges * edgeLength / options.gridSpacing);
+  return options;
+}
+
+TissueJob makeJob(const Segmentation& segmentation, int index, const TissueSizes& wanted,
+                  const MeshTissuesOptions& options) {
+  const Tissue& tissue = segmentation.tissues[index];
+  TissueJob job;
+  job.tissue = index;
+  job.sizes = fittingSizes(segmentation.geometry, tissue, wanted);
+  job.sizeReduced = job.sizes.edge < wanted.edge;
+  job.levelSet = levelSetOptions(segmentation.geometry, job.sizes.edge, options.levelSet);
+  job.cost = estimateCost(segmentation, tissue, job.sizes, job.levelSet);
+  return job;
+}
+
 std::vector<TissueJob> jobsLargestFirst(const Segmentation& segmentation, const std::vector<int>& tissues,
                                         const MeshTissuesOptions& options) {
   const std::vector<TissueSizes> sizes = resolveSizes(segmentation, options);
   const std::vector<std::string> stems = tissueFileStems(segmentation.tissues);
   std::vector<TissueJob> jobs(tissues.size());
   tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t j) {
-    const int t = tissues[j];
-    jobs[j] = {j, t, stems[t] + ".vtu", sizes[t],
-               estimateCost(segmentation, segmentation.tissues[t], sizes[t].edge, sizes[t].largest,
-                            options.levelSet)};
+    jobs[j] = makeJob(segmentation, tissues[j], sizes[tissues[j]], options);
+    jobs[j].slot = j;
+    jobs[j].file = stems[tissues[j]] + ".vtu";
   });
   // Largest need of memory first; the stable sort keeps ties in the order of the table.
   std::stable_sort(jobs.begin(), jobs.end(),

@@ -8,13 +8,12 @@ namespace {
 
 // A staircase has 1.5 times the area of the smooth surface behind it, over all directions.
 constexpr double kStaircaseArea = 1.5;
-// Measured on muscles and bones with the memory of the whole process, rounded up.
-constexpr double kBytesPerSurfaceCube =
-    6000;  // lattice, candidate and mesh, per cube face area of smooth surface
+// Measured as the peak of the whole process on balls and on the bones of a knee, rounded up.
+constexpr double kBytesPerSurfaceCube = 9000;  // lattice, candidate and mesh, per cube face of smooth surface
 constexpr double kBytesPerInnerCube = 3000;
-constexpr double kBytesPerVoxelOfBox = 24;   // crop, smoothed and resampled fields
-constexpr double kBytesPerBandVoxel = 20;    // grid, bricks, march
-constexpr double kWorkPerVoxelOfBox = 0.01;  // of the work of one surface cube
+constexpr double kBytesPerVoxel = 12;      // of the crop and of the level set's grid: masks and fields
+constexpr double kBytesPerBandVoxel = 20;  // grid, bricks, march
+constexpr double kWorkPerVoxel = 0.005;    // of the work of one surface cube
 
 /// Area of the faces between the tissue and all else, mm^2.
 double staircaseArea(const Segmentation& segmentation, const Tissue& tissue) {
@@ -42,24 +41,24 @@ double staircaseArea(const Segmentation& segmentation, const Tissue& tissue) {
 
 }  // namespace
 
-TissueCost estimateCost(const Segmentation& segmentation, const Tissue& tissue, double edgeLength,
-                        double maxEdgeLength, const LevelSetFromLabelsOptions& options) {
+TissueCost estimateCost(const Segmentation& segmentation, const Tissue& tissue, const TissueSizes& sizes,
+                        const LevelSetFromLabelsOptions& levelSet) {
   const ImageGeometry& geometry = segmentation.geometry;
   const double area = staircaseArea(segmentation, tissue) / kStaircaseArea;
   const double volume = static_cast<double>(tissue.voxels) * geometry.voxelVolume();
-  const double gridSpacing = options.gridSpacing > 0
-                                 ? options.gridSpacing
-                                 : std::max(geometry.spacing.minCoeff(), 0.5 * geometry.meanSpacing());
-  const Eigen::Vector3d extent =
-      (tissue.box.upper - tissue.box.lower).cast<double>().cwiseProduct(geometry.spacing).array() +
-      2 * options.bandVoxels * gridSpacing;
-  const double boxVoxels = extent.prod() / std::pow(gridSpacing, 3);
-  const double bandVoxels = 2 * options.bandVoxels * area / (gridSpacing * gridSpacing);
-  const double surfaceCubes = area / (edgeLength * edgeLength);
-  const double innerCubes = volume / std::pow(std::max(maxEdgeLength, edgeLength), 3);
-  return {surfaceCubes + innerCubes + kWorkPerVoxelOfBox * boxVoxels,
-          kBytesPerSurfaceCube * surfaceCubes + kBytesPerInnerCube * innerCubes +
-              kBytesPerVoxelOfBox * boxVoxels + kBytesPerBandVoxel * bandVoxels};
+  const double spacing = levelSet.gridSpacing, band = levelSet.bandVoxels * spacing;
+  const Eigen::Array3d extent =
+      (tissue.box.upper - tissue.box.lower).cast<double>().cwiseProduct(geometry.spacing).array() + 2 * band;
+  const double cropVoxels = extent.prod() / geometry.voxelVolume();
+  const double gridVoxels = extent.prod() / std::pow(spacing, 3);
+  const double bandVoxels = std::min(gridVoxels, 2 * band * area / std::pow(spacing, 3));
+  const double surfaceCubes = area / (sizes.edge * sizes.edge);
+  const double innerCubes = volume / std::pow(sizes.largest, 3);
+  TissueCost cost;
+  cost.work = surfaceCubes + innerCubes + kWorkPerVoxel * (cropVoxels + gridVoxels);
+  cost.ofVoxels = kBytesPerVoxel * (cropVoxels + gridVoxels) + kBytesPerBandVoxel * bandVoxels;
+  cost.memory = kBytesPerSurfaceCube * surfaceCubes + kBytesPerInnerCube * innerCubes + cost.ofVoxels;
+  return cost;
 }
 
 }  // namespace sinew

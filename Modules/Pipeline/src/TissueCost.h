@@ -5,16 +5,21 @@
 
 namespace sinew {
 
-/// What meshing one tissue will take, guessed from its voxels alone.
-struct TissueCost {
-  double work = 0;    ///< arbitrary unit: comparable between tissues
-  double memory = 0;  ///< bytes, roughly and rather too much
+struct TissueSizes {
+  double edge = 0;     ///< cube size at the surface, mm
+  double largest = 0;  ///< deep inside, mm
 };
 
-/// @param edgeLength     cube size at the surface, mm
-/// @param maxEdgeLength  cube size deep inside, mm
+/// What meshing one tissue will take, guessed from its voxels alone.
+struct TissueCost {
+  double work = 0;      ///< arbitrary unit: comparable between tissues
+  double memory = 0;    ///< bytes, roughly and rather too much
+  double ofVoxels = 0;  ///< the part of `memory` for voxels and level set; it grows with the edge length
+};
+
+/// @param levelSet  with the grid spacing that will be taken
 /// Cost: O(box of the tissue).
-TissueCost estimateCost(const Segmentation& segmentation, const Tissue& tissue, double edgeLength,
-                        double maxEdgeLength, const LevelSetFromLabelsOptions& options);
+TissueCost estimateCost(const Segmentation& segmentation, const Tissue& tissue, const TissueSizes& sizes,
+                        const LevelSetFromLabelsOptions& levelSet);
 
 }  // namespace sinew

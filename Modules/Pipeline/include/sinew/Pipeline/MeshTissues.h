@@ -17,7 +17,7 @@
 namespace sinew {
 
 struct MeshTissuesOptions {
-  Length edgeLength = Length::voxels(2);  ///< cube size of the lattice at the surface, > 0
+  Length edgeLength = Length::voxels(2);  ///< cube size at the surface, > 0; at most the tissue's extent
   Length maxEdgeLength = 0;               ///< cube size deep inside; 0: eight times the edge length
   std::map<std::string, Length> sizes;  ///< tissue, by a wish as in selectTissues -> its own edge length, > 0
   double curvature = 1.0;               ///< see GenerateTetMeshOptions
@@ -51,7 +51,7 @@ struct TissueReport {
   std::string file;  ///< name inside the output folder; empty when nothing was written
   TissueStatus status = TissueStatus::Failed;
   std::string message;                                  ///< one line: why it was lost or failed, or a warning
-  double edgeLength = 0;                                ///< as resolved for this tissue, mm
+  double edgeLength = 0;                                ///< as taken for this tissue, mm
   std::vector<std::pair<std::string, double>> seconds;  ///< stage -> wall seconds, in order
   MeshQuality quality;
   MeshConditions conditions;

@@ -1,0 +1,202 @@
+#include "sinew/MeshIO/VtuFile.h"
+#include "sinew/Pipeline/MeshTissues.h"
+#include "sinew/TestSupport/Files.h"
+#include "sinew/TestSupport/TempFolder.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace sinew {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kBallRadius = 9.5, kSmallRadius = 6.5;
+
+/// Two balls, and a row of ten voxels away from both; voxels of 1 mm, on a grid that is turned and mirrored
+/// in LPS.
+Segmentation ballsAndThread() {
+  Segmentation segmentation;
+  segmentation.source = "balls.nrrd";
+  segmentation.geometry.size = {48, 26, 26};
+  segmentation.geometry.origin = {10, 20, -30};
+  segmentation.geometry.direction =
+      Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 1, 0).normalized()).toRotationMatrix();
+  segmentation.geometry.direction.col(2) *= -1;
+  segmentation.layers.emplace_back();
+  for (int z = 0; z < 26; ++z)
+    for (int y = 0; y < 26; ++y)
+      for (int x = 0; x < 48; ++x) {
+        const Eigen::Vector3d centre(x, y, z);
+        const bool ball = (centre - Eigen::Vector3d(13, 12.5, 12.5)).norm() < kBallRadius;
+        const bool small = (centre - Eigen::Vector3d(36, 12.5, 12.5)).norm() < kSmallRadius;
+        segmentation.layers[0].push_back(ball                                    ? 5
+                                         : small                                 ? 7
+                                         : x > 20 && x <= 30 && y == 2 && z == 2 ? 9
+                                                                                 : 0);
+      }
+  for (const auto& [label, name] : {std::pair{5, "ball"}, {7, "small ball"}, {9, "thread"}}) {
+    Tissue tissue;
+    tissue.label = label;
+    tissue.name = name;
+    segmentation.tissues.push_back(tissue);
+  }
+  updateTissueTable(segmentation);
+  return segmentation;
+}
+
+MeshTissuesOptions coarse() {
+  MeshTissuesOptions options;
+  options.edgeLength = 3;
+  options.curvature = 0;  // nothing makes the lattice finer for the thread
+  return options;
+}
+
+std::size_t entries(const fs::path& folder) {
+  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+double ballVolume(double radius) { return 4 * std::numbers::pi / 3 * radius * radius * radius; }
+
+TEST(MeshTissues, WritesOneSoundMeshPerTissueAndNamesWhatIsLost) {
+  const test::TempFolder folder;
+  const Segmentation segmentation = ballsAndThread();
+  const std::vector<TissueReport> reports = meshTissues(segmentation, {0, 1, 2}, folder.path(), coarse());
+  ASSERT_EQ(reports.size(), 3u);
+  EXPECT_EQ(entries(folder.path()), 2u);
+
+  const double radii[]{kBallRadius, kSmallRadius};
+  for (int t = 0; t < 2; ++t) {
+    const TissueReport& report = reports[t];
+    EXPECT_EQ(report.status, TissueStatus::Meshed) << report.message;
+    EXPECT_EQ(report.message, "");
+    EXPECT_EQ(report.file, t == 0 ? "ball.vtu" : "small_ball.vtu");
+    EXPECT_TRUE(report.conditions.good());
+    EXPECT_EQ(report.topology.components, 1);
+    EXPECT_EQ(report.topology.eulerCharacteristic, 2);
+    EXPECT_EQ(report.levelSetComponents, 1);
+    EXPECT_EQ(report.levelSetEuler, 2);
+    EXPECT_EQ(report.lost.components, 0);
+    // Triangles of edge a inscribed in a ball of radius r cut off 3/8 (a/r)^2 of its volume; the compression
+    // stretches edges by up to a quarter. The voxels of the small ball are 1 % off the ball itself.
+    const double ratio = report.fidelity.volume / ballVolume(radii[t]);
+    EXPECT_GT(ratio, 1 - 3. / 8 * std::pow(1.25 * 3 / radii[t], 2));
+    EXPECT_LT(ratio, 1.01);
+    EXPECT_GT(report.fidelity.dice, 0.93);
+    EXPECT_LT(report.fidelity.maxBoundaryPhi, 1e-3 * report.edgeLength);
+    EXPECT_GT(report.seconds.size(), 3u);
+
+    const TetMesh mesh = readTetMesh(folder / report.file);
+    EXPECT_EQ(static_cast<std::int64_t>(mesh.tets.size()), report.quality.tets);
+    EXPECT_EQ(mesh.labels.front(), report.label);
+    const Eigen::Vector3d centre =
+        segmentation.geometry.indexToPhysical() * Eigen::Vector3d(t == 0 ? 13 : 36, 12.5, 12.5);
+    for (const Eigen::Vector3d& node : mesh.nodes)
+      ASSERT_LT((node - centre).norm(), radii[t] + 0.5) << "half a voxel around the ball";
+  }
+
+  const TissueReport& thread = reports[2];
+  EXPECT_EQ(thread.status, TissueStatus::Lost);
+  EXPECT_EQ(thread.file, "");
+  EXPECT_EQ(thread.lost.components, 1);
+  EXPECT_DOUBLE_EQ(thread.lost.volume, 10);
+  EXPECT_NE(thread.message.find("too small for the lattice: 10 voxels"), std::string::npos) << thread.message;
+}
+
+TEST(MeshTissues, TheFilesDoNotDependOnTheNumberOfThreads) {
+  const Segmentation segmentation = ballsAndThread();
+  std::vector<std::string> first;
+  for (const std::size_t threads : {1, 2, 4}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    const test::TempFolder folder;
+    meshTissues(segmentation, {0, 1}, folder.path(), coarse());
+    const std::vector<std::string> files{test::readBytes(folder / "ball.vtu"),
+                                         test::readBytes(folder / "small_ball.vtu")};
+    if (first.empty()) first = files;
+    EXPECT_TRUE(files == first) << threads << " threads";
+  }
+}
+
+TEST(MeshTissues, ATissueMayHaveItsOwnSize) {
+  const test::TempFolder folder;
+  MeshTissuesOptions options = coarse();
+  options.sizes["small ball"] = 2;
+  const auto reports = meshTissues(ballsAndThread(), {0, 1}, folder.path(), options);
+  EXPECT_EQ(reports[0].edgeLength, 3);
+  EXPECT_EQ(reports[1].edgeLength, 2);
+}
+
+TEST(MeshTissues, OneFailureLeavesTheOthersAlone) {
+  const test::TempFolder folder;
+  fs::create_directory(folder / "ball.vtu");  // stands in the way of the file
+  test::writeBytes(folder / "ball.vtu" / "occupied", "");
+  const auto reports = meshTissues(ballsAndThread(), {0, 1}, folder.path(), coarse());
+  EXPECT_EQ(reports[0].status, TissueStatus::Failed);
+  EXPECT_NE(reports[0].message.find("ball.vtu"), std::string::npos) << reports[0].message;
+  EXPECT_EQ(reports[1].status, TissueStatus::Meshed);
+  EXPECT_EQ(entries(folder.path()), 2u) << "a partial file is left";
+}
+
+TEST(MeshTissues, AnOldFileGoesWithItsTissue) {
+  const test::TempFolder folder;
+  test::writeBytes(folder / "thread.vtu", "from an earlier run");
+  meshTissues(ballsAndThread(), {2}, folder.path(), coarse());
+  EXPECT_EQ(entries(folder.path()), 0u);
+}
+
+TEST(MeshTissues, ACallbackStopsTheRun) {
+  struct Enough {};
+  const test::TempFolder folder;
+  for (const std::string stopAt : {"level set", "lattice", "measuring", "writing"}) {
+    const TissueProgress stop = [&](const std::string&, const std::string& stage, double) {
+      if (stage == stopAt) throw Enough{};
+    };
+    EXPECT_THROW(meshTissues(ballsAndThread(), {0, 1}, folder.path(), coarse(), stop), Enough) << stopAt;
+    EXPECT_EQ(entries(folder.path()), 0u) << stopAt;
+  }
+}
+
+TEST(MeshTissues, ProgressRisesToOne) {
+  const test::TempFolder folder;
+  double last = 0;
+  const TissueProgress note = [&](const std::string&, const std::string&, double done) {
+    EXPECT_GE(done, last);
+    last = done;
+  };
+  meshTissues(ballsAndThread(), {0, 1, 2}, folder.path(), coarse(), note);
+  EXPECT_DOUBLE_EQ(last, 1);
+}
+
+TEST(MeshTissues, BadSizesAreRefusedBeforeAnyComputing) {
+  const test::TempFolder folder;
+  const auto messageFor = [&](const MeshTissuesOptions& options) {
+    return test::messageOf<std::invalid_argument>([&] {
+      meshTissues(ballsAndThread(), {0, 1, 2}, folder.path(), options,
+                  [](const auto&, const auto&, double) { FAIL() << "computing has begun"; });
+    });
+  };
+  MeshTissuesOptions options;
+  options.edgeLength = 0;
+  EXPECT_EQ(messageFor(options), "the edge length is 0mm, but must be larger than 0");
+  options.edgeLength = Length::voxels(-1);
+  EXPECT_EQ(messageFor(options), "the edge length is -1vox, but must be larger than 0");
+  options = {};
+  options.sizes["bal"] = 1;
+  EXPECT_NE(messageFor(options).find("no tissue 'bal'; the nearest names are 'ball'"), std::string::npos);
+  options = {};
+  options.maxEdgeLength = -1;
+  EXPECT_NE(messageFor(options).find("largest edge length is -1mm"), std::string::npos);
+  options = {};
+  options.edgeLength = 1e-4;
+  const std::string tooSmall = messageFor(options);
+  EXPECT_NE(tooSmall.find("balls.nrrd: 'ball' at edge length 1e-04mm would take about "), std::string::npos)
+      << tooSmall;
+  EXPECT_NE(tooSmall.find("mm or more"), std::string::npos) << tooSmall;
+}
+
+}  // namespace
+}  // namespace sinew
