@@ -5,10 +5,10 @@
 namespace sinew {
 
 struct SurfaceLevelOptions {
-  double windowVoxels = 1.5;  ///< standard deviation of the window that the level is averaged over, voxels
+  double windowVoxels = 2;  ///< standard deviation of the window that the level is averaged over, voxels
   double tolerated =
       0.05;            ///< deviation of the level from the iso value that is left alone (noise, curvature)
-  double full = 0.1;  ///< deviation from which the local level alone counts
+  double full = 0.15;  ///< deviation from which the local level alone counts
 };
 
 /// Turns a smoothed mask u into a field that is negative inside: level - u.
