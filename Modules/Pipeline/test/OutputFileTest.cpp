@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <stdexcept>
+#include <unistd.h>
 
 namespace sinew {
 namespace {
@@ -43,11 +44,14 @@ TEST(OutputFile, LeavesNothingWithoutCommit) {
 
 TEST(OutputFile, ASignalHandlerFindsEveryTemporary) {
   const test::TempFolder folder;
-  OutputFile first(folder / "a"), second(folder / "b");
-  test::writeBytes(first.temporary(), "half");
-  test::writeBytes(second.temporary(), "half");
-  removeTemporaryFiles();
-  EXPECT_EQ(entries(folder.path()), 0u);
+  const auto interrupted = [&] {
+    OutputFile first(folder / "a"), second(folder / "b");
+    test::writeBytes(first.temporary(), "half");
+    test::writeBytes(second.temporary(), "half");
+    removeTemporaryFiles();
+    _exit(entries(folder.path()) == 0 ? 0 : 1);
+  };
+  EXPECT_EXIT(interrupted(), testing::ExitedWithCode(0), "");
 }
 
 TEST(OutputFile, WriteTextFileNamesTheFileThatItCannotWrite) {
