@@ -19,6 +19,7 @@ constexpr double kSurfaceLayer = 1.0;     // edge lengths on either side of the 
 constexpr double kLipschitzSlack = 1.05;  // a sampled distance may grow a little faster than the distance
 constexpr double kThinDepth = 0.6;        // of one cube size: phi one cube below the surface is no deeper
 constexpr double kWholesale = 0.15;       // of the surface asks for finer tets: then all of it gets them
+constexpr int kMostFiner = 8;             // levels below the surface's
 constexpr int kMargin = 3;  // cubes of level 0 around the bounds: two that overhang, one that stays whole
 
 /// Level -> cubes of that level that may hold tets within the layer around the surface.
@@ -163,8 +164,12 @@ class Refiner {
 
 LatticePlan planLattice(const SignedDistance& phi, const SizingOptions& options) {
   int coarser = 0, finer = 0;
-  while (options.edgeLength * (2 << coarser) <= options.maxEdgeLength * (1 + 1e-9)) ++coarser;
-  while (options.edgeLength / (2 << finer) >= options.minEdgeLength * (1 - 1e-9) && finer < 8) ++finer;
+  // A cube larger than the shape buys nothing.
+  const double largest = std::min(options.maxEdgeLength, phi.bounds().sizes().maxCoeff()) * (1 + 1e-9);
+  while (std::ldexp(options.edgeLength, coarser + 1) <= largest) ++coarser;
+  while (std::ldexp(options.edgeLength, -finer - 1) >= options.minEdgeLength * (1 - 1e-9) &&
+         finer < kMostFiner)
+    ++finer;
   if (options.curvature <= 0 && options.thickness <= 0) finer = 0;
   if (options.levels > 0) {
     coarser = std::min(coarser, options.levels - 1);
