@@ -102,6 +102,7 @@ void removeTemporaryFiles() noexcept {
 
 void checkOutputFile(const fs::path& file, bool force) {
   if (fs::is_directory(file)) refuse(file, "is a folder; give a file name");
+  if (fs::exists(file) && !fs::is_regular_file(file)) refuse(file, "is no ordinary file; give another name");
   checkOutputFolder(folderOf(file), {file.filename().string()}, force);
 }
 

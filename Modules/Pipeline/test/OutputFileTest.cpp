@@ -81,6 +81,7 @@ TEST(CheckOutput, FoldersMayBeMissingButNotFiles) {
   EXPECT_THROW(checkOutputFolder(folder / "file", {"a"}, false), std::runtime_error);
   EXPECT_THROW(checkOutputFolder(folder / "file" / "deep", {"a"}, false), std::runtime_error);
   EXPECT_THROW(checkOutputFile(folder.path(), true), std::runtime_error) << "a folder is no file";
+  EXPECT_THROW(checkOutputFile("/dev/null", true), std::runtime_error) << "renaming onto it would replace it";
 }
 
 TEST(CheckOutput, UnwritableFoldersAreFoundBeforehand) {
