@@ -22,6 +22,7 @@ import tempfile
 
 TOLERANCE = 0.05  # of the number of tets
 MAX_TRIALS = 12  # of the size search
+AFTER_FAILURE = 0.99  # times the size, where a program fails
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 
 
@@ -109,7 +110,12 @@ class Comparison:
         trials = []
         size = (6 * math.sqrt(2) * self.volume / target) ** (1 / 3)
         for _ in range(MAX_TRIALS):
-            tets = self.tets(mesher, size)
+            try:
+                tets = self.tets(mesher, size)
+            except RuntimeError as error:
+                print(f"  {mesher.name}: size {size:.6g} mm FAILED: {error}", file=sys.stderr)
+                size *= AFTER_FAILURE
+                continue
             print(f"  {mesher.name}: size {size:.4g} mm gives {tets} tets", file=sys.stderr)
             if abs(tets - target) <= TOLERANCE * target:
                 return size
