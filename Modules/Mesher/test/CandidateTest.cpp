@@ -7,7 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numbers>
 #include <random>
+#include <utility>
 
 namespace sinew {
 namespace {
@@ -122,6 +125,90 @@ TEST(Candidate, RepairOnlyAddsAndSaysWhatIsLeftAtItsCap) {
   }
   EXPECT_GT(violations, 0);
   EXPECT_GT(added, 0);
+}
+
+/// The tets on either side of the inner faces of a mesh.
+std::vector<std::pair<Tet, Tet>> neighbours(const std::vector<Tet>& tets) {
+  std::map<Triangle, Tet> open;
+  std::vector<std::pair<Tet, Tet>> pairs;
+  for (const Tet& tet : tets)
+    for (const auto& [i, j, k] : kTetFaces) {
+      Triangle face{tet[i], tet[j], tet[k]};
+      std::ranges::sort(face);
+      const auto [it, first] = open.try_emplace(face, tet);
+      if (!first) pairs.emplace_back(it->second, tet);
+    }
+  return pairs;
+}
+
+std::int32_t apex(const Tet& tet, const Tet& neighbour) {
+  return *std::ranges::find_if(
+      tet, [&](std::int32_t v) { return std::ranges::find(neighbour, v) == neighbour.end(); });
+}
+
+TEST(Candidate, SeesEveryViolationWhereTwoStarsMeet) {
+  Background b = backgroundOf(test::AnalyticTorus({0, 0, 0}, 6, 2.5), 1);
+  const std::vector<double> phi = b.mesh.phi;
+  auto pairs = neighbours(b.mesh.tets);
+  std::shuffle(pairs.begin(), pairs.end(), std::mt19937(61));
+  int tried = 0, bad = 0;
+  for (const auto& [first, second] : pairs) {
+    const std::int32_t p = apex(first, second), q = apex(second, first);
+    if (phi[p] > 0 || phi[q] > 0) continue;  // near the end of the mesh
+    if (++tried > 100) break;
+    std::ranges::fill(b.mesh.phi, 1.0);
+    b.mesh.phi[p] = b.mesh.phi[q] = -1;
+    const Candidate bare = selectCandidate(b.mesh, b.stars, {.maxPasses = 0});
+    ASSERT_EQ(std::ranges::count(bare.enveloped, 1), 2);
+    const bool good = meshConditions(extractMesh(b.mesh, bare.keep, 1)).good();
+    bad += !good;
+    EXPECT_EQ(bare.violations == 0, good) << "seed 61, pair " << tried;
+    const Candidate repaired = selectCandidate(b.mesh, b.stars);
+    EXPECT_EQ(repaired.violations, 0);
+    EXPECT_TRUE(meshConditions(extractMesh(b.mesh, repaired.keep, 1)).good());
+  }
+  EXPECT_GT(bad, 0);
+}
+
+/// Two stars, around p above and q below the triangle abc, that share this one face, and what encloses them.
+LatticeMesh twoStarsAtOneFace() {
+  LatticeMesh mesh;
+  const auto ring = [&](double radius, double turn) {
+    for (int k = 0; k < 3; ++k) {
+      const double angle = (2 * k + turn) * std::numbers::pi / 3;
+      mesh.positions.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0);
+    }
+  };
+  ring(1, 0);  // 0..2: a, b, c
+  ring(2, 1);  // 3..5: outside of ab, bc, ca
+  for (const double z : {0.5, 1.2, 3.0, -0.5, -1.2, -3.0}) mesh.positions.emplace_back(0, 0, z);
+  for (const std::int32_t side : {6, 9}) {
+    const std::int32_t star = side, tip = side + 1, far = side + 2;
+    mesh.tets.push_back({star, 0, 1, 2});
+    for (std::int32_t k = 0; k < 3; ++k) {
+      const std::int32_t next = (k + 1) % 3;
+      mesh.tets.push_back({star, k, next, tip});
+      mesh.tets.push_back({k, next, tip, 3 + k});
+      mesh.tets.push_back({next, tip, 3 + k, 3 + next});
+      mesh.tets.push_back({far, tip, 3 + k, 3 + next});
+    }
+  }
+  mesh.phi.assign(mesh.positions.size(), 1.0);
+  mesh.phi[6] = mesh.phi[9] = -1;
+  return mesh;
+}
+
+TEST(Candidate, SeesAnInnerFaceWithThreeBoundaryNodesAndNothingElseWrong) {
+  const LatticeMesh mesh = twoStarsAtOneFace();
+  const NodeStars stars = nodeStars(mesh.positions.size(), mesh.tets);
+  const Candidate bare = selectCandidate(mesh, stars, {.maxPasses = 0});
+  const MeshConditions found = meshConditions(extractMesh(mesh, bare.keep, 1));
+  EXPECT_EQ(found.interiorFacesWithThreeBoundaryNodes, 1);
+  EXPECT_EQ(found.nonmanifoldEdges + found.nonmanifoldNodes + found.interiorEdgesBetweenBoundaryNodes, 0);
+  EXPECT_GT(bare.violations, 0);
+  const Candidate repaired = selectCandidate(mesh, stars);
+  EXPECT_EQ(repaired.violations, 0);
+  EXPECT_TRUE(meshConditions(extractMesh(mesh, repaired.keep, 1)).good());
 }
 
 TEST(Candidate, OfNothingIsEmpty) {
