@@ -47,15 +47,16 @@ TextTable qualityTable(const std::vector<MeshAssessment>& assessments) {
   for (const MeshAssessment& mesh : assessments) {
     const MeshQuality& quality = mesh.quality;
     const MeshConditions& conditions = mesh.conditions;
-    table.add({mesh.file, grouped(quality.tets), grouped(quality.nodes), fixed(quality.maxAspectRatio, 2),
-               fixed(quality.meanAspectRatio, 2),
-               fixed(quality.minDihedralDeg, 1) + " - " + fixed(quality.maxDihedralDeg, 1),
-               fixed(quality.maxOverMinEdge, 1), violations(quality.inverted),
-               violations(conditions.nonmanifoldEdges + conditions.nonmanifoldNodes),
-               violations(conditions.tetsWithFourBoundaryNodes),
-               violations(conditions.interiorEdgesBetweenBoundaryNodes +
-                          conditions.interiorFacesWithThreeBoundaryNodes),
-               std::to_string(mesh.topology.components), std::to_string(mesh.topology.eulerCharacteristic)});
+    table.add(
+        {mesh.file, grouped(quality.tets), grouped(quality.nodes), fixed(quality.maxAspectRatio, 2),
+         fixed(quality.meanAspectRatio, 2),
+         fixed(quality.minDihedralDeg, 1) + " - " + fixed(quality.maxDihedralDeg, 1),
+         fixed(quality.maxOverMinEdge, 1), violations(quality.inverted),
+         violations(conditions.facesOfManyTets + conditions.nonmanifoldEdges + conditions.nonmanifoldNodes),
+         violations(conditions.tetsWithFourBoundaryNodes),
+         violations(conditions.interiorEdgesBetweenBoundaryNodes +
+                    conditions.interiorFacesWithThreeBoundaryNodes),
+         std::to_string(mesh.topology.components), std::to_string(mesh.topology.eulerCharacteristic)});
   }
   return table;
 }

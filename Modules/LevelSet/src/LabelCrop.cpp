@@ -1,5 +1,8 @@
 #include "sinew/LevelSet/LabelCrop.h"
 
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -20,18 +23,21 @@ void checkTissue(const Segmentation& segmentation, const Tissue& tissue) {
 }  // namespace
 
 LabelCrop cropLabel(const Segmentation& segmentation, const Tissue& tissue, const Eigen::Vector3i& margin,
-                    int lastAxis) {
+                    int lastAxis, const Eigen::Vector3i& block) {
   checkTissue(segmentation, tissue);
+  if ((block.array() < 1).any()) throw std::invalid_argument("cropLabel: a cell has at least one voxel");
   const ImageGeometry& geometry = segmentation.geometry;
   const Eigen::Vector3i axis((lastAxis == 0) ? 1 : 0, (lastAxis == 2) ? 1 : 2, lastAxis);
 
-  Eigen::Matrix3d edges;  // one raster step along each axis, mm
+  LabelCrop crop;
+  Eigen::Matrix3d edges;  // one voxel step along each axis, mm
   Eigen::Vector3i first, step = Eigen::Vector3i::Ones(), extent, pad;
   for (int a = 0; a < 3; ++a) {
     edges.col(a) = geometry.direction.col(axis[a]) * geometry.spacing[axis[a]];
     first[a] = tissue.box.lower[axis[a]];
     extent[a] = tissue.box.upper[axis[a]] - first[a];
     pad[a] = margin[axis[a]];
+    crop.block[a] = block[axis[a]];
   }
   if (edges.determinant() < 0) {
     edges.col(2) *= -1;
@@ -39,27 +45,41 @@ LabelCrop cropLabel(const Segmentation& segmentation, const Tissue& tissue, cons
     step[2] = -1;
   }
 
-  LabelCrop crop;
-  crop.mask = DenseMask(extent + 2 * pad);
+  const Eigen::Vector3i& cell = crop.block;
+  const Eigen::Vector3i cells = (extent + cell - Eigen::Vector3i::Ones()).cwiseQuotient(cell);
+  crop.coverage = DenseField(cells + 2 * pad);
   const std::int64_t stride[3] = {1, geometry.size.x(), std::int64_t{geometry.size.x()} * geometry.size.y()};
   const std::int32_t* labels = segmentation.layers[static_cast<std::size_t>(tissue.layer)].data();
-  for (int k = 0; k < extent.z(); ++k)
-    for (int j = 0; j < extent.y(); ++j) {
-      const std::int32_t* in = labels + first[0] * stride[axis[0]] + (first[1] + j) * stride[axis[1]] +
-                               (first[2] + step[2] * k) * stride[axis[2]];
-      std::uint8_t* out = crop.mask.row(j + pad.y(), k + pad.z()) + pad.x();
-      for (int i = 0; i < extent.x(); ++i) out[i] = in[i * stride[axis[0]]] == tissue.label;
-    }
+  const float voxelPart = 1 / static_cast<float>(cell.prod());
+  tbb::parallel_for(0, cells.z(), [&](int slab) {
+    for (int k = slab * cell.z(); k < std::min((slab + 1) * cell.z(), extent.z()); ++k)
+      for (int j = 0; j < extent.y(); ++j) {
+        const std::int32_t* in = labels + first[0] * stride[axis[0]] + (first[1] + j) * stride[axis[1]] +
+                                 (first[2] + step[2] * k) * stride[axis[2]];
+        float* out = crop.coverage.row(j / cell.y() + pad.y(), slab + pad.z()) + pad.x();
+        for (int i = 0; i < extent.x(); ++out)
+          for (const int end = std::min(i + cell.x(), extent.x()); i < end; ++i)
+            if (in[i * stride[axis[0]]] == tissue.label) *out += voxelPart;
+      }
+  });
 
-  Eigen::Vector3d corner = geometry.origin;
+  Eigen::Vector3d corner = geometry.origin;  // centre of the first cell
   for (int a = 0; a < 3; ++a) {
-    crop.spacing[a] = geometry.spacing[axis[a]];
+    crop.spacing[a] = geometry.spacing[axis[a]] * cell[a];
     corner += geometry.direction.col(axis[a]) * (geometry.spacing[axis[a]] * first[a]);
-    corner -= edges.col(a) * pad[a];
+    corner += edges.col(a) * (0.5 * (cell[a] - 1) - pad[a] * cell[a]);
+    edges.col(a) *= cell[a];
   }
   crop.indexToPhysical.linear() = edges;
   crop.indexToPhysical.translation() = corner;
   return crop;
+}
+
+DenseMask mostlyCovered(const DenseField& coverage) {
+  DenseMask mask(coverage.size);
+  std::transform(coverage.values.begin(), coverage.values.end(), mask.values.begin(),
+                 [](float part) { return static_cast<std::uint8_t>(part >= 0.5F); });
+  return mask;
 }
 
 }  // namespace sinew

@@ -88,6 +88,23 @@ TEST(LevelSetFromLabels, ASphereComesOutWithinATenthOfAVoxel) {
   EXPECT_EQ(topology.eulerCharacteristic, 2);
 }
 
+TEST(LevelSetFromLabels, ACoarseGridKeepsPlaceAndVolume) {
+  for (const Matrix3d& direction : {Matrix3d(Matrix3d::Identity()), mirrored()})
+    for (const Vector3d& spacing : {Vector3d(0.5, 0.5, 0.5), Vector3d(0.4, 0.4, 1.5)}) {
+      SCOPED_TRACE(testing::Message() << "spacing " << spacing.transpose() << " direction\n" << direction);
+      const Vector3i size = (Vector3d::Constant(46).cwiseQuotient(spacing)).array().ceil().cast<int>();
+      LevelSetFromLabelsOptions options;
+      options.gridSpacing = 1.7;
+      const Converted c = convert(segmentationOf(centredGeometry(size, spacing, direction), sphere), options);
+      EXPECT_EQ(c.levelSet.voxelSize, 1.7);
+      EXPECT_FALSE(c.report.shapeInterpolated) << "blocks of 4 x 4 x 1 voxels are nearly cubes";
+      const SurfaceError error = surfaceError(c.levelSet, sphere);
+      EXPECT_LT(error.rms, 0.05 * options.gridSpacing);
+      EXPECT_LT(std::abs(error.mean), 0.01 * options.gridSpacing);
+      EXPECT_LT(std::abs(c.volumeError()), 0.002);
+    }
+}
+
 TEST(LevelSetFromLabels, LandsInPlaceForAnyAxesAndSpacing) {
   const Vector3d spacings[] = {{1, 1, 1}, {0.9, 1.1, 1.3}, {0.8, 0.8, 2}, {2, 0.8, 0.8}, {0.8, 2, 0.8}};
   for (const Matrix3d& direction :
@@ -101,9 +118,10 @@ TEST(LevelSetFromLabels, LandsInPlaceForAnyAxesAndSpacing) {
       EXPECT_NEAR(r.determinant(), 1, 1e-9) << "the frame is a rotation";
       const SurfaceError error = surfaceError(c.levelSet, sphere);
       const double largest = spacing.maxCoeff();
-      // Across thick slices the caps may be off by a third of a slice (LEVELSET.md); the sphere has two.
+      // Across thick slices the caps may be off by a third of a slice (LEVELSET.md), plus the grid that
+      // samples them.
       EXPECT_LT(error.rms, 0.1 * largest);
-      EXPECT_LT(error.max, 0.5 * largest);
+      EXPECT_LT(error.max, 0.55 * largest);
       EXPECT_LT(std::abs(error.mean), 0.03 * largest);
       EXPECT_LT(std::abs(c.volumeError()), 0.005);
       EXPECT_EQ(c.report.shapeInterpolated, largest >= 1.8 * spacing.minCoeff());

@@ -186,7 +186,7 @@ void takeTets(vtkUnstructuredGrid* grid, const fs::path& file, TetMesh& mesh) {
 
 std::vector<NodeKind> kindsOf(const TetMesh& mesh) {
   std::vector<NodeKind> kinds(mesh.nodes.size(), NodeKind::Interior);
-  for (const Triangle& triangle : boundaryTriangles(mesh))
+  for (const Triangle& triangle : meshBoundary(mesh).triangles)
     for (const std::int32_t node : triangle) kinds[static_cast<std::size_t>(node)] = NodeKind::Boundary;
   return kinds;
 }

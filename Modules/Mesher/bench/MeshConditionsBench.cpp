@@ -12,10 +12,14 @@ void measureCandidate(benchmark::State& state, const Measure& measure) {
   bench::countItems(state, mesh.tets.size());
 }
 
-void conditionsOfCandidate(benchmark::State& state) { measureCandidate(state, &meshConditions); }
+void conditionsOfCandidate(benchmark::State& state) {
+  measureCandidate(state, [](const TetMesh& mesh) { return meshConditions(mesh); });
+}
 BENCHMARK(conditionsOfCandidate)->Apply(bench::sizes);
 
-void topologyOfCandidate(benchmark::State& state) { measureCandidate(state, &meshTopology); }
+void topologyOfCandidate(benchmark::State& state) {
+  measureCandidate(state, [](const TetMesh& mesh) { return meshTopology(mesh); });
+}
 BENCHMARK(topologyOfCandidate)->Apply(bench::sizes);
 
 }  // namespace

@@ -12,25 +12,31 @@ template <class Evaluate>
 void sweepStars(benchmark::State& state, const Evaluate& evaluate) {
   const TetMesh mesh = bench::candidateMesh(bench::ball(state.range(0)));
   const ActiveNodes active = activeNodes(mesh, movableNodes(mesh));
+  NodeStar star;
   for (auto _ : state) {
     double sum = 0;
-    for (std::size_t a = 0; a < active.size(); ++a)
-      sum += evaluate(mesh.nodes[active.nodes[a]], active.star(static_cast<std::int32_t>(a)), mesh.nodes);
+    for (std::size_t a = 0; a < active.size(); ++a) {
+      star.gather(active.star(static_cast<std::int32_t>(a)), mesh.nodes, mesh.nodes[active.nodes[a]]);
+      sum += evaluate(star);
+    }
     benchmark::DoNotOptimize(sum);
   }
   bench::countItems(state, active.faces.size());
 }
 
+void gatherStars(benchmark::State& state) {
+  sweepStars(state, [](const NodeStar& star) { return star.shortestEdge(); });
+}
+BENCHMARK(gatherStars)->Apply(bench::sizes);
+
 void valueOfStars(benchmark::State& state) {
-  sweepStars(state, [](const auto& x, const auto& star, const auto& nodes) {
-    return starValue(x, star, nodes, kExponent).energy;
-  });
+  sweepStars(state, [](const NodeStar& star) { return star.value(star.origin(), kExponent).energy; });
 }
 BENCHMARK(valueOfStars)->Apply(bench::sizes);
 
 void derivativesOfStars(benchmark::State& state) {
-  sweepStars(state, [](const auto& x, const auto& star, const auto& nodes) {
-    const StarDerivatives derivatives = starDerivatives(x, star, nodes, kExponent);
+  sweepStars(state, [](const NodeStar& star) {
+    const StarDerivatives derivatives = star.derivatives(kExponent);
     return derivatives.gradient.sum() + derivatives.hessian.trace();
   });
 }

@@ -1,6 +1,8 @@
 #include "ActiveNodes.h"
 
+#include <algorithm>
 #include <bit>
+#include <numeric>
 
 namespace sinew {
 namespace {
@@ -30,20 +32,40 @@ void buildStars(const TetMesh& mesh, ActiveNodes& active) {
 }
 
 /// Greedy, in the order of the nodes.
-void colorNodes(ActiveNodes& active) {
-  std::vector<std::int8_t> color(active.size(), -1);
+std::vector<std::uint8_t> colorNodes(const ActiveNodes& active) {
+  constexpr std::uint8_t kNone = 255;
+  std::vector<std::uint8_t> color(active.size(), kNone);
   for (std::size_t n = 0; n < active.size(); ++n) {
     std::uint64_t used = 0;
     for (const StarFaceNodes& face : active.star(static_cast<std::int32_t>(n))) {
       for (const std::int32_t v : face) {
         const std::int32_t other = active.indexOf[v];
-        if (other >= 0 && color[other] >= 0) used |= std::uint64_t{1} << color[other];
+        if (other >= 0 && color[other] != kNone) used |= std::uint64_t{1} << color[other];
       }
     }
-    color[n] = static_cast<std::int8_t>(std::countr_one(used));
-    if (active.colors.size() <= static_cast<std::size_t>(color[n])) active.colors.emplace_back();
-    active.colors[color[n]].push_back(static_cast<std::int32_t>(n));
+    color[n] = static_cast<std::uint8_t>(std::countr_one(used));
   }
+  return color;
+}
+
+/// Nodes of one color side by side, and so their stars: a sweep reads memory from front to back.
+void sortByColor(ActiveNodes& active, const std::vector<std::uint8_t>& color) {
+  std::vector<std::int32_t> order(active.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {}, [&](std::int32_t n) { return color[n]; });
+  ActiveNodes sorted;
+  sorted.indexOf = std::move(active.indexOf);
+  sorted.offsets = {0};
+  sorted.faces.reserve(active.faces.size());
+  for (const std::int32_t n : order) {
+    if (sorted.colors.size() == color[n]) sorted.colors.push_back({sorted.nodes.size(), sorted.nodes.size()});
+    sorted.indexOf[active.nodes[n]] = static_cast<std::int32_t>(sorted.nodes.size());
+    sorted.nodes.push_back(active.nodes[n]);
+    sorted.faces.insert(sorted.faces.end(), active.star(n).begin(), active.star(n).end());
+    sorted.offsets.push_back(static_cast<std::int32_t>(sorted.faces.size()));
+    sorted.colors.back().end = sorted.nodes.size();
+  }
+  active = std::move(sorted);
 }
 
 }  // namespace
@@ -80,7 +102,7 @@ ActiveNodes activeNodes(const TetMesh& mesh, const std::vector<std::uint8_t>& mo
     active.nodes.push_back(static_cast<std::int32_t>(n));
   }
   buildStars(mesh, active);
-  colorNodes(active);
+  sortByColor(active, colorNodes(active));
   return active;
 }
 

@@ -13,11 +13,15 @@ namespace sinew {
 /// that all nodes of one colour can move at once. Nodes are named by their place in `nodes`, the active
 /// index.
 struct ActiveNodes {
-  std::vector<std::int32_t> nodes;    ///< mesh nodes, ascending
+  struct Range {
+    std::size_t begin, end;
+  };
+
+  std::vector<std::int32_t> nodes;    ///< mesh nodes, color by color, ascending in each
   std::vector<std::int32_t> indexOf;  ///< mesh node -> active index, or -1
   std::vector<std::int32_t> offsets;  ///< rows of faces, size nodes + 1
   std::vector<StarFaceNodes> faces;
-  std::vector<std::vector<std::int32_t>> colors;  ///< active indices, each ascending
+  std::vector<Range> colors;  ///< of active indices
 
   std::span<const StarFaceNodes> star(std::int32_t active) const {
     return {faces.data() + offsets[active], faces.data() + offsets[active + 1]};

@@ -36,7 +36,7 @@ class StageClock {
   std::chrono::steady_clock::time_point started_;
 };
 
-constexpr double kBandEdges = 2;  // how far from the surface phi must be exact
+constexpr double kBandEdges = 1.55;  // how far from the surface phi must be exact
 
 void requireThat(bool holds, const char* what) {
   if (!holds) throw std::invalid_argument(std::string("generateTetMesh: ") + what);
@@ -52,7 +52,7 @@ SizingOptions sizingOptions(const SignedDistance& phi, const GenerateTetMeshOpti
   requireThat(options.curvature >= 0, "curvature must not be negative");
   requireThat(options.levels >= 0, "levels must not be negative");
   requireThat(phi.band() >= kBandEdges * options.edgeLength,
-              "phi must be known up to two edge lengths from its surface");
+              "phi must be known up to 1.55 edge lengths from its surface");
   SizingOptions sizing;
   sizing.edgeLength = options.edgeLength;
   sizing.maxEdgeLength = options.maxEdgeLength > 0 ? options.maxEdgeLength : 8 * options.edgeLength;
@@ -84,10 +84,9 @@ TetMesh generateTetMesh(const SignedDistance& phi, const GenerateTetMeshOptions&
   clock.start("lattice", 0);
   const LatticePlan plan = planLattice(phi, sizing);
   RedGreenLattice lattice(plan.coarseCells, plan.levels);
-  refineToSize(lattice, plan, phi, sizing);
+  out.finestCube = plan.cubeSize(refineToSize(lattice, plan, phi, sizing));
   const LatticeMesh background = latticeMesh(lattice, plan, phi);
   out.latticeNodes = lattice.nodes().size();
-  out.finestCube = plan.cubeSize(plan.levels - 1);
 
   clock.start("candidate", 0.3);
   const NodeStars stars = nodeStars(background.positions.size(), background.tets);

@@ -69,22 +69,6 @@ void forEachFace(const TetMesh& mesh, const Visit& visit) {
   forEachGroup(mesh.nodes.size(), 4 * mesh.tets.size(), keyOf, visit);
 }
 
-/// isBoundary[4 t + f]: no other tet has the face.
-std::vector<bool> boundaryFaces(const TetMesh& mesh) {
-  std::vector<bool> isBoundary(4 * mesh.tets.size(), false);
-  forEachFace(mesh, [&](std::span<const std::uint32_t> faces) {
-    if (faces.size() == 1) isBoundary[faces.front()] = true;
-  });
-  return isBoundary;
-}
-
-std::vector<Triangle> trianglesOf(const TetMesh& mesh, const std::vector<bool>& isBoundary) {
-  std::vector<Triangle> triangles;
-  for (std::size_t face = 0; face < isBoundary.size(); ++face)
-    if (isBoundary[face]) triangles.push_back(faceNodes(mesh, face));
-  return triangles;
-}
-
 std::vector<bool> nodesOf(const std::vector<Triangle>& triangles, std::size_t nodeCount) {
   std::vector<bool> has(nodeCount, false);
   for (const Triangle& triangle : triangles)
@@ -213,29 +197,33 @@ void measureBoundary(const std::vector<Triangle>& triangles, std::size_t nodeCou
 
 }  // namespace
 
-MeshConditions meshConditions(const TetMesh& mesh) {
-  const std::vector<bool> isBoundary = boundaryFaces(mesh);
-  const std::vector<Triangle> triangles = trianglesOf(mesh, isBoundary);
-  const std::vector<bool> onBoundary = nodesOf(triangles, mesh.nodes.size());
+MeshBoundary meshBoundary(const TetMesh& mesh) {
+  MeshBoundary boundary;
+  boundary.isBoundary.resize(4 * mesh.tets.size());
+  DisjointSets pieces(mesh.tets.size());
+  forEachFace(mesh, [&](std::span<const std::uint32_t> faces) {
+    if (faces.size() == 1) boundary.isBoundary[faces.front()] = true;
+    if (faces.size() > 2) ++boundary.facesOfManyTets;
+    for (std::size_t i = 1; i < faces.size(); ++i) pieces.join(faces[i - 1] / 4, faces[i] / 4);
+  });
+  boundary.components = pieces.count();
+  for (std::size_t face = 0; face < boundary.isBoundary.size(); ++face)
+    if (boundary.isBoundary[face]) boundary.triangles.push_back(faceNodes(mesh, face));
+  return boundary;
+}
+
+MeshConditions meshConditions(const TetMesh& mesh, const MeshBoundary& boundary) {
+  const std::vector<bool> onBoundary = nodesOf(boundary.triangles, mesh.nodes.size());
   MeshConditions found;
-  checkEdges(mesh, triangles, onBoundary, found);
-  checkTets(mesh, isBoundary, onBoundary, found);
+  found.facesOfManyTets = boundary.facesOfManyTets;
+  checkEdges(mesh, boundary.triangles, onBoundary, found);
+  checkTets(mesh, boundary.isBoundary, onBoundary, found);
   return found;
 }
 
-std::vector<Triangle> boundaryTriangles(const TetMesh& mesh) {
-  return trianglesOf(mesh, boundaryFaces(mesh));
-}
-
-MeshTopology meshTopology(const TetMesh& mesh) {
-  DisjointSets pieces(mesh.tets.size());
-  std::vector<bool> isBoundary(4 * mesh.tets.size(), false);
-  forEachFace(mesh, [&](std::span<const std::uint32_t> faces) {
-    if (faces.size() == 1) isBoundary[faces.front()] = true;
-    if (faces.size() == 2) pieces.join(faces[0] / 4, faces[1] / 4);
-  });
-  MeshTopology topology{.components = pieces.count()};
-  measureBoundary(trianglesOf(mesh, isBoundary), mesh.nodes.size(), topology);
+MeshTopology meshTopology(const TetMesh& mesh, const MeshBoundary& boundary) {
+  MeshTopology topology{.components = boundary.components};
+  measureBoundary(boundary.triangles, mesh.nodes.size(), topology);
   return topology;
 }
 

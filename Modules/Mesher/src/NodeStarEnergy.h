@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <span>
 
@@ -42,16 +43,42 @@ struct StarValue {
   double energy = 0;
   double worst = 0;
 };
-StarValue starValue(const Eigen::Vector3d& x, std::span<const StarFaceNodes> star,
-                    const std::vector<Eigen::Vector3d>& nodes, int q);
 
-/// Gradient and Hessian of the sum of F^q with respect to x.
+/// Gradient and Hessian of the sum of F^q with respect to the node.
 struct StarDerivatives {
   double energy = 0;
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
 };
-StarDerivatives starDerivatives(const Eigen::Vector3d& x, std::span<const StarFaceNodes> star,
-                                const std::vector<Eigen::Vector3d>& nodes, int q);
+
+/// The tets around one node as functions of the node's place x = origin + d, their other nodes held:
+///
+///     6V(d) = v + n.d        n = (b-a) x (c-a)
+///     L(d)  = l - 2 s.d + 3 d.d    s = a + b + c - 3 origin
+///
+/// Gathered once per visit of a node, evaluated several times; one row per coefficient, so that the loops
+/// over the tets become vector instructions.
+class NodeStar {
+ public:
+  /// @param origin  where the node is; values are most exact near it
+  void gather(std::span<const StarFaceNodes> faces, const std::vector<Eigen::Vector3d>& nodes,
+              const Eigen::Vector3d& origin);
+
+  const Eigen::Vector3d& origin() const { return origin_; }
+  /// @param q  1, 2, 4, 8 or 16
+  StarValue value(const Eigen::Vector3d& x, int q) const;
+  /// At the origin, where all tets must be positive.
+  StarDerivatives derivatives(int q) const;
+  double shortestEdge() const;
+
+ private:
+  enum Row { kNx, kNy, kNz, kV, kSx, kSy, kSz, kL, kCorners, kRows = kCorners + 9 };
+  const double* row(Row r) const { return rows_.data() + static_cast<std::size_t>(r) * capacity_; }
+  double* row(Row r) { return rows_.data() + static_cast<std::size_t>(r) * capacity_; }
+
+  Eigen::Vector3d origin_;
+  std::size_t tets_ = 0, capacity_ = 0;
+  std::vector<double> rows_;
+};
 
 }  // namespace sinew

@@ -27,7 +27,7 @@ class NearCubes {
  public:
   NearCubes(const LatticePlan& plan, const SignedDistance& phi, double layer) : plan_(plan) {
     base_ = 0;
-    while (base_ < plan.surfaceLevel && reach(base_, layer) > phi.band()) ++base_;
+    while (base_ < plan.surfaceLevel + kBeyondSurfaceLevel && reach(base_, layer) > phi.band()) ++base_;
     flags_.resize(base_ + 1);
     fillBase(phi, layer);
     for (int level = base_; level > 0; --level) fillCoarser(level);
@@ -44,8 +44,12 @@ class NearCubes {
   }
 
  private:
+  /// Cubes below the surface level need not be in the lattice; they only sample phi more finely.
+  static constexpr int kBeyondSurfaceLevel = 1;
+
+  double cubeSize(int level) const { return std::ldexp(plan_.cubeSize(0), -level); }
   double reach(int level, double layer) const {
-    return kLipschitzSlack * (kCubeRadius * plan_.cubeSize(level) + layer);
+    return kLipschitzSlack * (kCubeRadius * cubeSize(level) + layer);
   }
   Int3 cells(int level) const { return plan_.coarseCells << level; }
   std::size_t index(int level, Int3 c) const {
@@ -57,12 +61,19 @@ class NearCubes {
   void fillBase(const SignedDistance& phi, double layer) {
     const Int3 n = cells(base_);
     flags_[base_].assign(static_cast<std::size_t>(n.x) * n.y * n.z, 0);
-    const int shift = plan_.levels - 1 - base_;
-    tbb::parallel_for(0, n.z, [&](int z) {
-      for (int y = 0; y < n.y; ++y) {
-        for (int x = 0; x < n.x; ++x) {
-          const Eigen::Vector3d centre = plan_.frame.position(Int3{2 * x + 1, 2 * y + 1, 2 * z + 1} << shift);
-          flags_[base_][index(base_, {x, y, z})] = std::abs(phi.value(centre)) <= reach(base_, layer);
+    const double size = cubeSize(base_), near = reach(base_, layer);
+    // The surface lies within the bounds of phi.
+    const Eigen::Array3d below = (phi.bounds().min() - plan_.frame.origin).array() - near,
+                         above = (phi.bounds().max() - plan_.frame.origin).array() + near;
+    const Eigen::Array3i first = (below / size - 0.5).ceil().max(0).cast<int>(),
+                         last =
+                             (above / size - 0.5).floor().cast<int>().min(Eigen::Array3i(n.x, n.y, n.z) - 1);
+    tbb::parallel_for(first.z(), last.z() + 1, [&](int z) {
+      for (int y = first.y(); y <= last.y(); ++y) {
+        for (int x = first.x(); x <= last.x(); ++x) {
+          const Eigen::Vector3d centre =
+              plan_.frame.origin + size * Eigen::Vector3d(x + 0.5, y + 0.5, z + 0.5);
+          flags_[base_][index(base_, {x, y, z})] = std::abs(phi.value(centre)) <= near;
         }
       }
     });
@@ -214,8 +225,8 @@ Wishes collectWishes(const LatticePlan& plan, const SignedDistance& phi, const S
 
 }  // namespace
 
-void refineToSize(RedGreenLattice& lattice, const LatticePlan& plan, const SignedDistance& phi,
-                  const SizingOptions& options) {
+int refineToSize(RedGreenLattice& lattice, const LatticePlan& plan, const SignedDistance& phi,
+                 const SizingOptions& options) {
   LatticePlan uniform = plan;
   SizingOptions sizes = options;
   Wishes wishes = collectWishes(uniform, phi, sizes);
@@ -224,8 +235,13 @@ void refineToSize(RedGreenLattice& lattice, const LatticePlan& plan, const Signe
     sizes.edgeLength *= 0.5;
     wishes = collectWishes(uniform, phi, sizes);
   }
-  for (const auto& [level, tet] : wishes.tets) lattice.refine(level, tet);
+  int finest = 0;
+  for (const auto& [level, tet] : wishes.tets) {
+    lattice.refine(level, tet);
+    finest = std::max(finest, level + 1);
+  }
   lattice.close();
+  return finest;
 }
 
 }  // namespace sinew

@@ -280,7 +280,7 @@ TEST(ExtractMesh, NamesTheLatticeNodesAndMarksTheBoundary) {
     EXPECT_EQ(mesh.nodes[n], b.mesh.positions[latticeNodes[n]]);
   EXPECT_EQ(mesh.labels, std::vector<std::int32_t>(mesh.tets.size(), 42));
   std::vector<NodeKind> kinds(mesh.nodes.size(), NodeKind::Interior);
-  for (const Triangle& triangle : boundaryTriangles(mesh))
+  for (const Triangle& triangle : meshBoundary(mesh).triangles)
     for (const std::int32_t v : triangle) kinds[v] = NodeKind::Boundary;
   EXPECT_EQ(mesh.kinds, kinds);
   std::size_t kept = 0;

@@ -1,3 +1,4 @@
+#include "GoalMeasure.h"
 #include "RandomShapes.h"
 #include "sinew/Mesher/Candidate.h"
 #include "sinew/Mesher/Compression.h"
@@ -44,8 +45,15 @@ void expectOnTheSurface(const TetMesh& mesh, const SignedDistance& phi, const Co
   }
 }
 
+int tetsFarFromTheGoals(const TetMesh& mesh) {
+  const auto& x = mesh.nodes;
+  return static_cast<int>(std::ranges::count_if(
+      mesh.tets, [&](const Tet& t) { return goalMeasure(x[t[3]], x[t[0]], x[t[1]], x[t[2]]) > 1.02; }));
+}
+
 TEST(Compression, PutsTheBoundaryOfRandomShapesOnTheSurfaceAndInvertsNothing) {
   std::size_t unsnapped = 0;
+  int farFromTheGoals = 0;
   for (unsigned seed = 0; seed < 18; ++seed) {
     const test::RandomShape shape = test::randomShape(seed);
     SCOPED_TRACE("seed " + std::to_string(seed) + ", " + shape.name());
@@ -59,8 +67,12 @@ TEST(Compression, PutsTheBoundaryOfRandomShapesOnTheSurfaceAndInvertsNothing) {
     EXPECT_EQ(mesh.nodes.size(), before.nodes.size());
     expectOnTheSurface(mesh, shape, options, report);
     unsnapped += report.unsnapped.size();
+    farFromTheGoals += tetsFarFromTheGoals(mesh);
   }
-  EXPECT_LE(unsnapped, 10u);  // out of thousands: a few are left to the retreat
+  // A few are left to the retreat. Of 37,000 tets 10 stay far from the goals; 26 do without the last descent,
+  // 31 without the cap on the snap.
+  EXPECT_LE(unsnapped, 10u);
+  EXPECT_LE(farFromTheGoals, 18);
 }
 
 TEST(Compression, MeetsTheToleranceAskedFor) {
@@ -86,6 +98,21 @@ TEST(Compression, ListsTheNodesThatCannotReachTheSurface) {
   EXPECT_TRUE(std::ranges::is_sorted(report.unsnapped));
   EXPECT_EQ(meshQuality(mesh).inverted, 0);
   expectOnTheSurface(mesh, small, options, report);
+}
+
+TEST(Compression, ListsNodesOfTheMeshForARegionToo) {
+  TetMesh mesh = candidateOf(test::AnalyticSphere(Vector3d::Zero(), 5), 1);
+  const test::AnalyticSphere small(Vector3d::Zero(), 2);
+  std::vector<std::uint8_t> region(mesh.nodes.size());
+  for (std::size_t n = 0; n < region.size(); ++n) region[n] = mesh.nodes[n].z() > 2;
+  const CompressionReport report =
+      compressOntoSurface(mesh, small, {.edgeLength = 1, .snapSweeps = 1}, region);
+  EXPECT_FALSE(report.unsnapped.empty());
+  for (const std::int32_t n : report.unsnapped) {
+    EXPECT_TRUE(region[n]);
+    EXPECT_EQ(mesh.kinds[n], NodeKind::Boundary);
+    EXPECT_GT(std::abs(small.value(mesh.nodes[n])), 1e-5);
+  }
 }
 
 TEST(Compression, MovesOnlyTheRegion) {

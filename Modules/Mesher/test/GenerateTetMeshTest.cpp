@@ -54,7 +54,7 @@ struct Errors {
 template <class Shape>
 Errors errorsOf(const Shape& shape, const TetMesh& mesh) {
   double area = 0, squares = 0;
-  for (const auto& [a, b, c] : boundaryTriangles(mesh)) {
+  for (const auto& [a, b, c] : meshBoundary(mesh).triangles) {
     const Vector3d &A = mesh.nodes[a], &B = mesh.nodes[b], &C = mesh.nodes[c];
     const double triangle = (B - A).cross(C - A).norm() / 2, phi = shape.value((A + B + C) / 3);
     area += triangle;
@@ -191,7 +191,6 @@ TEST(GenerateTetMesh, ReportsWhatItDid) {
     if (mesh.kinds[n] == NodeKind::Boundary)
       largestPhi = std::max(largestPhi, std::abs(sphere.value(mesh.nodes[n])));
   EXPECT_EQ(report.maxBoundaryPhi, largestPhi);
-  EXPECT_EQ(report.finestCube, 1);  // the resolution allows one halving
   EXPECT_GT(report.latticeNodes, static_cast<std::int64_t>(mesh.nodes.size()));
 
   ASSERT_GE(calls.size(), 2u);
@@ -226,7 +225,7 @@ TEST(GenerateTetMesh, RefusesOptionsOutOfRange) {
                                 {"negative edge length", [](Options& o) { o.edgeLength = -1; }},
                                 {"edge length nan", [](Options& o) { o.edgeLength = kNan; }},
                                 {"edge length infinite", [](Options& o) { o.edgeLength = kInfinite; }},
-                                {"band below two edge lengths", [](Options& o) { o.edgeLength = 1.51; }},
+                                {"band below 1.55 edge lengths", [](Options& o) { o.edgeLength = 1.94; }},
                                 {"largest edge below the edge", [](Options& o) { o.maxEdgeLength = 0.9; }},
                                 {"largest edge negative", [](Options& o) { o.maxEdgeLength = -1; }},
                                 {"largest edge nan", [](Options& o) { o.maxEdgeLength = kNan; }},
@@ -252,17 +251,29 @@ TEST(GenerateTetMesh, AShapeBelowTheLatticeGivesAnEmptyMesh) {
   EXPECT_TRUE(mesh.kinds.empty());
 }
 
-TEST(GenerateTetMesh, LevelsOptionCapsTheLattice) {
-  const test::AnalyticTorus torus(Vector3d::Zero(), 5, 1.5, {.resolution = 0.25});
-  const auto finest = [&](int levels) {
-    GenerateTetMeshReport report;
+TEST(GenerateTetMesh, LevelsAndCurvatureDecideOnTheFinestCube) {
+  // |k1| + |k2| is up to 1/0.8 + 1/4.2 = 1.49 per mm, so cubes of 1 mm are too coarse where c = 1.
+  const test::AnalyticTorus torus(Vector3d::Zero(), 5, 0.8, {.resolution = 0.25});
+  const auto finest = [&](int levels, double curvature) {
     GenerateTetMeshOptions options = withEdge(1);
     options.levels = levels;
-    generateTetMesh(torus, options, &report);
-    return report.finestCube;
+    options.curvature = curvature;
+    GenerateTetMeshReport report;
+    const TetMesh mesh = generateTetMesh(torus, options, &report);
+    return std::pair(report.finestCube, mesh.tets.size());
   };
-  EXPECT_EQ(finest(1), 1);
-  EXPECT_LT(finest(0), 1);
+  const auto [whole, few] = finest(0, 0);
+  EXPECT_EQ(whole, 1);
+  EXPECT_EQ(finest(1, 1), std::pair(whole, few));
+  const auto [halved, many] = finest(0, 1);
+  EXPECT_EQ(halved, 0.5);
+  EXPECT_GT(many, 3 * few);
+}
+
+TEST(GenerateTetMesh, ReportsTheFinestCubeUsedNotTheFinestAllowed) {
+  GenerateTetMeshReport report;
+  generateTetMesh(test::AnalyticSphere(Vector3d::Zero(), 5, {.resolution = 0.25}), withEdge(2), &report);
+  EXPECT_EQ(report.finestCube, 2);  // a ball asks for nothing finer: 2 mm x (1/5 + 1/5) is below 1
 }
 
 /// Bytes of the arrays of a mesh: less than making it takes.

@@ -180,7 +180,7 @@ TEST(MeshConditions, DoNotDependOnTheOrderOfTetsAndNodes) {
 
 TEST(BoundaryTriangles, FaceOutwardInTheOrderOfTheTets) {
   const TetMesh ball = bccBall(6, 2.3);
-  const std::vector<Triangle> triangles = boundaryTriangles(ball);
+  const std::vector<Triangle> triangles = meshBoundary(ball).triangles;
   // Divergence theorem: sum over triangles of det(a, b, c) / 6 is the volume, positive for outward triangles.
   double volume = 0;
   for (const auto& [a, b, c] : triangles) volume += ball.nodes[a].cross(ball.nodes[b]).dot(ball.nodes[c]) / 6;
@@ -215,13 +215,24 @@ TEST(MeshTopology, OfBallTorusAndShell) {
   EXPECT_EQ(shell.eulerCharacteristic, 4);
 }
 
+TEST(MeshConditions, CountsFacesOfManyTets) {
+  TetMesh mesh;
+  mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, -1}, {1, 1, 1}};
+  mesh.tets = {{0, 1, 2, 3}, {0, 2, 1, 4}};
+  mesh.labels = {1, 1};
+  EXPECT_EQ(meshConditions(mesh).facesOfManyTets, 0);
+  mesh.tets.push_back({0, 1, 2, 5});
+  EXPECT_EQ(meshConditions(mesh).facesOfManyTets, 1);
+  EXPECT_FALSE(meshConditions(mesh).good());
+}
+
 TEST(MeshTopology, OfNothing) {
   const MeshTopology topology = meshTopology({});
   EXPECT_EQ(topology.components, 0);
   EXPECT_EQ(topology.boundaryComponents, 0);
   EXPECT_EQ(topology.eulerCharacteristic, 0);
   EXPECT_TRUE(meshConditions({}).good());
-  EXPECT_TRUE(boundaryTriangles({}).empty());
+  EXPECT_TRUE(meshBoundary({}).triangles.empty());
 }
 
 }  // namespace

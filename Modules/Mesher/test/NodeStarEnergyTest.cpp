@@ -36,6 +36,13 @@ struct Star {
   std::vector<Vector3d> nodes;
   std::vector<StarFaceNodes> faces;
   Vector3d x;
+
+  NodeStar at(const Vector3d& origin) const {
+    NodeStar star;
+    star.gather(faces, nodes, origin);
+    return star;
+  }
+  NodeStar gathered() const { return at(x); }
 };
 
 Star jitteredStar(Random& random, double jitter) {
@@ -108,10 +115,12 @@ TEST(NodeStarEnergy, IsTheSumOverTheTets) {
       sum += std::pow(F, q);
       worst = std::max(worst, F);
     }
-    const StarValue value = starValue(star.x, star.faces, star.nodes, q);
-    EXPECT_NEAR(value.energy, sum, 1e-12 * sum);
-    EXPECT_EQ(value.worst, worst);
-    EXPECT_NEAR(starDerivatives(star.x, star.faces, star.nodes, q).energy, sum, 1e-12 * sum);
+    for (const Vector3d& origin : {star.x, Vector3d(star.x + 0.1 * Vector3d::Ones())}) {
+      const StarValue value = star.at(origin).value(star.x, q);
+      EXPECT_NEAR(value.energy, sum, 1e-12 * sum);
+      EXPECT_NEAR(value.worst, worst, 1e-12 * worst);
+    }
+    EXPECT_NEAR(star.gathered().derivatives(q).energy, sum, 1e-12 * sum);
   }
 }
 
@@ -119,8 +128,8 @@ TEST(NodeStarEnergy, IsInfiniteWhenOneTetIsNotPositive) {
   Random random(33);
   const Star star = jitteredStar(random, 0);
   const Vector3d outside = star.x + Vector3d(0, 0, 1.5);
-  EXPECT_EQ(starValue(outside, star.faces, star.nodes, 2).energy, kInfinity);
-  EXPECT_EQ(starValue(outside, star.faces, star.nodes, 2).worst, kInfinity);
+  EXPECT_EQ(star.gathered().value(outside, 2).energy, kInfinity);
+  EXPECT_EQ(star.gathered().value(outside, 2).worst, kInfinity);
 }
 
 TEST(NodeStarEnergy, DerivativesAgreeWithCentralDifferences) {
@@ -131,14 +140,14 @@ TEST(NodeStarEnergy, DerivativesAgreeWithCentralDifferences) {
     for (int k = 0; k < 20; ++k) {
       SCOPED_TRACE("seed 34, q " + std::to_string(q) + ", star " + std::to_string(k));
       const Star star = jitteredStar(random, 0.12);
-      const StarDerivatives d = starDerivatives(star.x, star.faces, star.nodes, q);
+      const StarDerivatives d = star.gathered().derivatives(q);
       ASSERT_TRUE(std::isfinite(d.energy));
       Vector3d gradient;
       Matrix3d hessian;
       for (int axis = 0; axis < 3; ++axis) {
         const Vector3d offset = h * Vector3d::Unit(axis);
-        const auto plus = starDerivatives(star.x + offset, star.faces, star.nodes, q);
-        const auto minus = starDerivatives(star.x - offset, star.faces, star.nodes, q);
+        const auto plus = star.at(star.x + offset).derivatives(q);
+        const auto minus = star.at(star.x - offset).derivatives(q);
         gradient[axis] = (plus.energy - minus.energy) / (2 * h);
         hessian.col(axis) = (plus.gradient - minus.gradient) / (2 * h);
       }
@@ -152,7 +161,7 @@ TEST(NodeStarEnergy, DerivativesAgreeWithCentralDifferences) {
 TEST(NodeStarEnergy, IsStationaryAtTheCentreOfTheLatticeStar) {
   Random random(35);
   const Star star = jitteredStar(random, 0);
-  const StarDerivatives d = starDerivatives(star.x, star.faces, star.nodes, 4);
+  const StarDerivatives d = star.gathered().derivatives(4);
   EXPECT_NEAR(d.gradient.norm(), 0, 1e-11 * d.energy);
   EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix3d>(d.hessian).eigenvalues().minCoeff(), 0);
 }

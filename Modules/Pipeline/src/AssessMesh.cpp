@@ -12,12 +12,12 @@
 namespace sinew {
 namespace {
 
-MeshAssessment assess(const std::filesystem::path& file, const TetMesh& mesh) {
+MeshAssessment assess(const std::filesystem::path& file, const TetMesh& mesh, const MeshBoundary& boundary) {
   MeshAssessment assessment;
   assessment.file = file.string();
   assessment.quality = meshQuality(mesh);
-  assessment.conditions = meshConditions(mesh);
-  assessment.topology = meshTopology(mesh);
+  assessment.conditions = meshConditions(mesh, boundary);
+  assessment.topology = meshTopology(mesh, boundary);
   return assessment;
 }
 
@@ -51,17 +51,21 @@ const Tissue& tissueOf(const std::filesystem::path& file, const TetMesh& mesh, c
 
 }  // namespace
 
-MeshAssessment assessMesh(const std::filesystem::path& file) { return assess(file, readTetMesh(file)); }
+MeshAssessment assessMesh(const std::filesystem::path& file) {
+  const TetMesh mesh = readTetMesh(file);
+  return assess(file, mesh, meshBoundary(mesh));
+}
 
 MeshAssessment assessMesh(const std::filesystem::path& file, const Segmentation& reference,
                           const std::string& wish, const LevelSetFromLabelsOptions& options) {
   const TetMesh mesh = readTetMesh(file);
   const Tissue& tissue = tissueOf(file, mesh, reference, wish);
-  MeshAssessment assessment = assess(file, mesh);
+  const MeshBoundary boundary = meshBoundary(mesh);
+  MeshAssessment assessment = assess(file, mesh, boundary);
   LevelSetFromLabelsReport volumes;
   const LevelSet levelSet = levelSetFromLabels(reference, tissue, options, &volumes);
-  const FidelityReport fidelity =
-      measureFidelity(mesh, LevelSetSurface(levelSet), levelSet.frame, volumes, reference, tissue);
+  const FidelityReport fidelity = measureFidelity(mesh, boundary.triangles, LevelSetSurface(levelSet),
+                                                  levelSet.frame, volumes, reference, tissue);
   assessment.tissue = tissue.name;
   assessment.fidelity = fidelity.fidelity;
   assessment.lost = fidelity.lost;

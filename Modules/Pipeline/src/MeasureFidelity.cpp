@@ -27,10 +27,9 @@ class Deviation {
   std::int64_t points_ = 0;
 };
 
-void measureSurface(const TetMesh& mesh, const SignedDistance& surface, const Eigen::Isometry3d& frame,
-                    Fidelity& fidelity) {
+void measureSurface(const TetMesh& mesh, const std::vector<Triangle>& triangles,
+                    const SignedDistance& surface, const Eigen::Isometry3d& frame, Fidelity& fidelity) {
   const Eigen::Isometry3d toLocal = frame.inverse();
-  const std::vector<Triangle> triangles = boundaryTriangles(mesh);
   std::vector<bool> onBoundary(mesh.nodes.size());
   Deviation deviation(surface);
   for (const Triangle& triangle : triangles)
@@ -64,11 +63,12 @@ double meshVolume(const TetMesh& mesh) {
 
 }  // namespace
 
-FidelityReport measureFidelity(const TetMesh& mesh, const SignedDistance& surface,
-                               const Eigen::Isometry3d& frame, const LevelSetFromLabelsReport& volumes,
-                               const Segmentation& segmentation, const Tissue& tissue) {
+FidelityReport measureFidelity(const TetMesh& mesh, const std::vector<Triangle>& boundary,
+                               const SignedDistance& surface, const Eigen::Isometry3d& frame,
+                               const LevelSetFromLabelsReport& volumes, const Segmentation& segmentation,
+                               const Tissue& tissue) {
   FidelityReport report;
-  measureSurface(mesh, surface, frame, report.fidelity);
+  measureSurface(mesh, boundary, surface, frame, report.fidelity);
   report.fidelity.volume = meshVolume(mesh);
   report.fidelity.labelVolume = volumes.labelVolume;
   report.fidelity.levelSetVolume = volumes.levelSetVolume;

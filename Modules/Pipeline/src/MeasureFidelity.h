@@ -14,12 +14,14 @@ struct FidelityReport {
 };
 
 /// @param mesh      in LPS mm
+/// @param boundary  its boundary triangles
 /// @param surface   the level set that the mesh was made from, in its own frame
 /// @param frame     that frame, as in LevelSet
 /// @param volumes   of label and level set
 /// Cost: O(tets + voxels of the tissue's box).
-FidelityReport measureFidelity(const TetMesh& mesh, const SignedDistance& surface,
-                               const Eigen::Isometry3d& frame, const LevelSetFromLabelsReport& volumes,
-                               const Segmentation& segmentation, const Tissue& tissue);
+FidelityReport measureFidelity(const TetMesh& mesh, const std::vector<Triangle>& boundary,
+                               const SignedDistance& surface, const Eigen::Isometry3d& frame,
+                               const LevelSetFromLabelsReport& volumes, const Segmentation& segmentation,
+                               const Tissue& tissue);
 
 }  // namespace sinew

@@ -49,6 +49,7 @@ std::string oneLine(std::string text) {
 std::string unsoundness(const MeshQuality& quality, const MeshConditions& conditions) {
   const std::pair<std::int64_t, const char*> counts[]{
       {quality.inverted, "inverted tets"},
+      {conditions.facesOfManyTets, "faces of three or more tets"},
       {conditions.nonmanifoldEdges, "non-manifold edges"},
       {conditions.nonmanifoldNodes, "non-manifold nodes"},
       {conditions.tetsWithFourBoundaryNodes, "tets with four boundary nodes"},
@@ -133,13 +134,14 @@ class TissueRun {
   void measure(const TetMesh& mesh) {
     advance("measuring", kAfterMesh);
     report_.quality = meshQuality(mesh);
-    report_.conditions = meshConditions(mesh);
-    report_.topology = meshTopology(mesh);
+    const MeshBoundary boundary = meshBoundary(mesh);
+    report_.conditions = meshConditions(mesh, boundary);
+    report_.topology = meshTopology(mesh, boundary);
     const LevelSetTopology topology = levelSetTopology(*surface_);
     report_.levelSetComponents = topology.components;
     report_.levelSetEuler = topology.eulerCharacteristic;
     const FidelityReport fidelity =
-        measureFidelity(mesh, *surface_, frame_, volumes_, segmentation_, tissue_);
+        measureFidelity(mesh, boundary.triangles, *surface_, frame_, volumes_, segmentation_, tissue_);
     report_.fidelity = fidelity.fidelity;
     report_.lost = fidelity.lost;
     surface_.reset();

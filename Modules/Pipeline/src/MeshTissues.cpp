@@ -81,11 +81,11 @@ TissueSizes fittingSizes(const ImageGeometry& geometry, const Tissue& tissue, co
   return {std::min(wanted.edge, extent), std::min(wanted.largest, extent)};
 }
 
-/// The mesher looks for the surface up to two edge lengths away; samples much finer than the lattice buy
+/// The mesher looks for the surface up to 1.55 edge lengths away; samples much finer than the lattice buy
 /// nothing.
 LevelSetFromLabelsOptions levelSetOptions(const ImageGeometry& geometry, double edgeLength,
                                           LevelSetFromLabelsOptions options) {
-  constexpr double kBandEdges = 2.1, kSamplesPerEdge = 8;
+  constexpr double kBandEdges = 1.6, kSamplesPerEdge = 5;
   if (options.gridSpacing <= 0)
     options.gridSpacing = std::max(defaultGridSpacing(geometry), edgeLength / kSamplesPerEdge);
   options.bandVoxels = std::max(options.bandVoxels, kBandEdges * edgeLength / options.gridSpacing);

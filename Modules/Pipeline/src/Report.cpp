@@ -21,7 +21,8 @@ Json toJsonObject(const MeshQuality& quality) {
 }
 
 Json toJsonObject(const MeshConditions& conditions) {
-  return {{"nonmanifold_edges", conditions.nonmanifoldEdges},
+  return {{"faces_of_many_tets", conditions.facesOfManyTets},
+          {"nonmanifold_edges", conditions.nonmanifoldEdges},
           {"nonmanifold_nodes", conditions.nonmanifoldNodes},
           {"tets_with_four_boundary_nodes", conditions.tetsWithFourBoundaryNodes},
           {"interior_edges_between_boundary_nodes", conditions.interiorEdgesBetweenBoundaryNodes},

@@ -51,7 +51,7 @@ TEST(Report, HasTheFieldsThatReadersExpect) {
             (std::vector<std::string>{"inverted", "max_aspect_ratio", "max_dihedral_deg", "max_over_min_edge",
                                       "mean_aspect_ratio", "min_dihedral_deg"}));
   EXPECT_EQ(keys(tissue["conditions"]),
-            (std::vector<std::string>{"interior_edges_between_boundary_nodes",
+            (std::vector<std::string>{"faces_of_many_tets", "interior_edges_between_boundary_nodes",
                                       "interior_faces_with_three_boundary_nodes", "nonmanifold_edges",
                                       "nonmanifold_nodes", "tets_with_four_boundary_nodes"}));
   EXPECT_EQ(

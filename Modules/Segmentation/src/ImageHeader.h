@@ -17,8 +17,9 @@ struct ImageHeader {
   ImageFormat format = ImageFormat::Nrrd;
   std::map<std::string, std::string> keys{};  ///< NRRD key/value pairs, unescaped
   bool list = false;                          ///< NRRD: the components are a list, not a vector or a colour
-  std::optional<ImagePayload> payload{};  ///< empty when the voxels are spread over several files, or text
-  std::optional<ImageGeometry> sform{};   ///< NIfTI: what the sform says, where it is set
+  std::optional<ImagePayload>
+      payload{};  ///< empty when the voxels are spread over several files, text, or skipped to
+  std::optional<ImageGeometry> sform{};  ///< NIfTI: what the sform says, where it is set
 };
 
 /// Tells the format from the content and reads the raw header, refusing what ITK would silently repair or

@@ -57,24 +57,27 @@ void requirePlausibleSize(const fs::path& file, const ImagePayload& payload) {
 
 std::vector<std::int32_t> readPayload(const fs::path& file, const ImageGeometry& geometry,
                                       const ImagePayload& payload) {
-  constexpr std::size_t chunk = 1 << 16;  // voxels
+  constexpr std::size_t chunk = 1 << 14;  // voxels
   const std::size_t valueBytes = bytesOf(payload.type);
   const bool scaled = payload.slope != 1 || payload.intercept != 0;
   requirePlausibleSize(file, payload);
   UnpackStream stream(payload.file, payload.offset, payload.compressed);
   stream.skip(payload.skip);
 
-  std::vector<std::int32_t> labels(static_cast<std::size_t>(geometry.voxelCount()));
+  const auto voxels = static_cast<std::size_t>(geometry.voxelCount());
+  std::vector<std::int32_t> labels;
+  labels.reserve(voxels);  // grown chunk by chunk: what is not there to be read touches no memory
   std::vector<std::byte> stored(chunk * valueBytes);
   std::vector<float> real(scaled ? chunk : 0);
-  for (std::size_t first = 0; first < labels.size(); first += chunk) {
-    const std::size_t count = std::min(chunk, labels.size() - first);
+  for (std::size_t first = 0; first < voxels; first += chunk) {
+    const std::size_t count = std::min(chunk, voxels - first);
     const std::span bytes(stored.data(), count * valueBytes);
     const std::size_t found = stream.read(bytes);
     if (found < bytes.size()) refuseTruncated(file, first * valueBytes + found, payload);
     if (payload.swapped) swapBytes(bytes, valueBytes);
     if (scaled) kRescale[static_cast<int>(payload.type)](payload, bytes, std::span(real).first(count));
     const auto* values = scaled ? reinterpret_cast<const std::byte*>(real.data()) : stored.data();
+    labels.resize(first + count);
     convertToLabels(file, geometry, scaled ? ValueType::Float32 : payload.type, values, 1, first,
                     std::span(labels).subspan(first, count));
   }

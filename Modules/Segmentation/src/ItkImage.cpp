@@ -183,6 +183,10 @@ LabelImage readNrrd(const fs::path& file, const ImageHeader& header, bool layere
   requireVolume(file, sizes(*io));
   requireLabels(file, *io, header.list, layered);
   LabelImage image{.geometry = geometry(file, *io), .layers = {}};
+  if (header.payload && io->GetNumberOfComponents() == 1) {
+    image.layers.push_back(readPayload(file, image.geometry, *header.payload));
+    return image;
+  }
   try {
     image.layers = readLayers(file, *io, image.geometry);
   } catch (const itk::ExceptionObject& exception) {

@@ -84,25 +84,30 @@ std::vector<std::int64_t> sizes(const fs::path& file, const NrrdFields& header) 
   return result;
 }
 
-/// Bytes of one value of each NRRD type.
-std::uint64_t bytesPerValue(const fs::path& file, const NrrdFields& header) {
+/// The types of values and NRRD's names for them.
+ValueType valueType(const fs::path& file, const NrrdFields& header) {
   struct Type {
-    std::uint64_t bytes;
+    ValueType type;
     std::initializer_list<std::string_view> names;
   };
   static const std::array types{
-      Type{1, {"signed char", "int8", "int8_t", "uchar", "unsigned char", "uint8", "uint8_t"}},
-      Type{2, {"short", "short int", "signed short", "signed short int", "int16", "int16_t"}},
-      Type{2, {"ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t"}},
-      Type{4,
-           {"int", "signed int", "int32", "int32_t", "uint", "unsigned int", "uint32", "uint32_t", "float"}},
-      Type{8, {"longlong", "long long", "long long int", "signed long long", "signed long long int"}},
-      Type{8, {"int64", "int64_t", "ulonglong", "unsigned long long", "unsigned long long int", "uint64"}},
-      Type{8, {"uint64_t", "double"}},
+      Type{ValueType::Int8, {"signed char", "int8", "int8_t"}},
+      Type{ValueType::UInt8, {"uchar", "unsigned char", "uint8", "uint8_t"}},
+      Type{ValueType::Int16, {"short", "short int", "signed short", "signed short int", "int16", "int16_t"}},
+      Type{ValueType::UInt16, {"ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t"}},
+      Type{ValueType::Int32, {"int", "signed int", "int32", "int32_t"}},
+      Type{ValueType::UInt32, {"uint", "unsigned int", "uint32", "uint32_t"}},
+      Type{ValueType::Int64,
+           {"longlong", "long long", "long long int", "signed long long", "signed long long int", "int64",
+            "int64_t"}},
+      Type{ValueType::UInt64,
+           {"ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t"}},
+      Type{ValueType::Float32, {"float"}},
+      Type{ValueType::Float64, {"double"}},
   };
   const std::string name = text::lower(field(header, {"type"}));
-  for (const Type& type : types)
-    if (std::ranges::find(type.names, name) != type.names.end()) return type.bytes;
+  for (const auto& [type, names] : types)
+    if (std::ranges::find(names, name) != names.end()) return type;
   text::refuse(file, "its NRRD type is `" + text::printable(name) + "`; save it with an integer type");
 }
 
@@ -157,13 +162,19 @@ std::optional<fs::path> dataFile(const fs::path& file, const NrrdFields& header)
   return path;
 }
 
-std::optional<ImagePayload> payload(const fs::path& file, const NrrdFields& header, std::uint64_t bytes) {
+std::optional<ImagePayload> payload(const fs::path& file, const NrrdFields& header, ValueType type,
+                                    std::uint64_t bytes) {
   const std::string encoding = text::lower(field(header, {"encoding"}));
   const bool raw = encoding == "raw", gzip = encoding == "gzip" || encoding == "gz";
+  const bool skips = !field(header, {"line skip", "lineskip", "byte skip", "byteskip"}).empty();
   const auto data = dataFile(file, header);
-  if (!data || !(raw || gzip)) return std::nullopt;
-  return ImagePayload{
-      .file = *data, .offset = data == file ? header.bytes : 0, .compressed = gzip, .bytes = bytes};
+  if (!data || !(raw || gzip) || skips) return std::nullopt;
+  return ImagePayload{.file = *data,
+                      .offset = data == file ? header.bytes : 0,
+                      .compressed = gzip,
+                      .bytes = bytes,
+                      .type = type,
+                      .swapped = text::lower(field(header, {"endian"})) == "big"};
 }
 
 }  // namespace
@@ -171,7 +182,8 @@ std::optional<ImagePayload> payload(const fs::path& file, const NrrdFields& head
 ImageHeader readNrrdHeader(const fs::path& file) {
   const NrrdFields fields = readFields(file);
   const auto shape = sizes(file, fields);
-  const std::uint64_t bytes = volumeBytes(file, shape, bytesPerValue(file, fields));
+  const ValueType type = valueType(file, fields);
+  const std::uint64_t bytes = volumeBytes(file, shape, bytesOf(type));
   const std::string lowerKinds = text::lower(field(fields, {"kinds"}));
   const auto kinds = text::words(lowerKinds);
   checkSpacings(file, fields, kinds);
@@ -179,7 +191,7 @@ ImageHeader readNrrdHeader(const fs::path& file) {
   return {.format = ImageFormat::Nrrd,
           .keys = fields.keys,
           .list = std::ranges::count(kinds, "list") == 1,
-          .payload = payload(file, fields, bytes)};
+          .payload = payload(file, fields, type, bytes)};
 }
 
 }  // namespace sinew

@@ -38,7 +38,8 @@ LatticePlan planLattice(const SignedDistance& phi, const SizingOptions& options)
 /// curvature or thickness ask (Teran et al. 2005, section 5), graded by the hierarchy elsewhere. Closes the
 /// hierarchy. Cost: O(shape's surface / edgeLength^2 + bounds / band^3); parallel, the same for any number of
 /// threads.
-void refineToSize(RedGreenLattice& lattice, const LatticePlan& plan, const SignedDistance& phi,
-                  const SizingOptions& options);
+/// @return the finest level with tets
+int refineToSize(RedGreenLattice& lattice, const LatticePlan& plan, const SignedDistance& phi,
+                 const SizingOptions& options);
 
 }  // namespace sinew
