@@ -24,7 +24,7 @@
 namespace sinew {
 namespace {
 
-/// The march goes this much beyond the band, so that the volume can be corrected by an offset.
+/// The volume may be corrected by an offset of this much; the march goes as far beyond the band.
 constexpr double kLargestOffsetVoxels = 0.5;
 /// Slices: distances are kept up to this many slice spacings, so that slopes down to 1:16 become ramps.
 constexpr double kSlopeSlices = 16;
@@ -54,6 +54,7 @@ struct Plan {
   int lastAxis = 2;                                  ///< image axis across the slices
   Eigen::Vector3i margin = Eigen::Vector3i::Zero();  ///< cells, along the axes of the image
   double clear = 0;                                  ///< the narrowest margin, mm
+  double largestOffset = 0;                          ///< mm
   double reach = 0;                                  ///< half width of the march, mm
 };
 
@@ -74,7 +75,8 @@ Plan makePlan(const ImageGeometry& geometry, const LevelSetFromLabelsOptions& op
   int thickest = 2;
   plan.thick = spacing.maxCoeff(&thickest) >= options.thickSliceRatio * spacing.minCoeff();
   if (plan.thick) plan.lastAxis = thickest;
-  plan.reach = (options.bandVoxels + kLargestOffsetVoxels) * plan.h;
+  plan.largestOffset = kLargestOffsetVoxels * std::max(plan.h, defaultGridSpacing(geometry));
+  plan.reach = options.bandVoxels * plan.h + plan.largestOffset;
   constexpr double kKernelSigmas = 3.5, kFreeCells = 2;
   for (int a = 0; a < 3; ++a) {
     const bool across = plan.thick && a == plan.lastAxis;
@@ -238,8 +240,7 @@ TissueField tissueField(const Segmentation& segmentation, const Tissue& tissue, 
 }
 
 /// The offset that gives a signed distance the wanted volume; it never takes more than half of the depth.
-double volumeOffset(const DenseField& phi, const Eigen::Vector3d& spacing, double volume) {
-  const double largest = kLargestOffsetVoxels * spacing.minCoeff();
+double volumeOffset(const DenseField& phi, const Eigen::Vector3d& spacing, double volume, double largest) {
   const double depth = -*std::min_element(phi.values.begin(), phi.values.end());
   return volumeKeepingLevel(phi, spacing, volume, -std::min(largest, depth / 2), largest);
 }
@@ -259,7 +260,8 @@ LevelSet levelSetFromLabels(const Segmentation& segmentation, const Tissue& tiss
   const Eigen::Vector3d spacing = Eigen::Vector3d::Constant(plan.h);
   fastMarching(field.phi, spacing, plan.reach);
   const double volume = static_cast<double>(tissue.voxels) * segmentation.geometry.voxelVolume();
-  const double offset = options.smoothingVoxels > 0 ? volumeOffset(field.phi, spacing, volume) : 0;
+  const double offset =
+      options.smoothingVoxels > 0 ? volumeOffset(field.phi, spacing, volume, plan.largestOffset) : 0;
   LevelSet result = levelSetFromField({field.phi, field.frame, plan.h, options.bandVoxels * plan.h}, offset);
   if (report != nullptr) *report = {field.iso, plan.thick, volume, levelSetVolume(result)};
   return result;

@@ -28,7 +28,7 @@ inline SizingOptions sizing() {
 
 /// The lattice mesh of a shape.
 inline LatticeMesh background(const SignedDistance& phi) {
-  const LatticePlan plan = planLattice(phi, sizing());
+  LatticePlan plan = planLattice(phi, sizing());
   RedGreenLattice lattice(plan.coarseCells, plan.levels);
   refineToSize(lattice, plan, phi, sizing());
   return latticeMesh(lattice, plan, phi);

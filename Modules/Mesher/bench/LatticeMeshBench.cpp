@@ -6,7 +6,7 @@ namespace {
 /// Items are tets of the lattice mesh.
 void extractLatticeMesh(benchmark::State& state) {
   const test::AnalyticSphere phi = bench::ball(state.range(0));
-  const LatticePlan plan = planLattice(phi, bench::sizing());
+  LatticePlan plan = planLattice(phi, bench::sizing());
   RedGreenLattice lattice(plan.coarseCells, plan.levels);
   refineToSize(lattice, plan, phi, bench::sizing());
   std::size_t tets = 0;

@@ -8,7 +8,7 @@ void refineLattice(benchmark::State& state) {
   const test::AnalyticSphere phi = bench::ball(state.range(0));
   std::int32_t nodes = 0;
   for (auto _ : state) {
-    const LatticePlan plan = planLattice(phi, bench::sizing());
+    LatticePlan plan = planLattice(phi, bench::sizing());
     RedGreenLattice lattice(plan.coarseCells, plan.levels);
     refineToSize(lattice, plan, phi, bench::sizing());
     nodes = lattice.nodes().size();

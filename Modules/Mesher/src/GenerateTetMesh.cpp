@@ -1,5 +1,6 @@
 #include "sinew/Mesher/GenerateTetMesh.h"
 
+#include "NodeStarEnergy.h"
 #include "RetreatingCompression.h"
 #include "sinew/Mesher/Candidate.h"
 #include "sinew/Mesher/LatticeMesh.h"
@@ -36,6 +37,7 @@ class StageClock {
   std::chrono::steady_clock::time_point started_;
 };
 
+constexpr double kMostGreen = 0.2;   // part of the tets: the mean aspect ratio stays near 2
 constexpr double kBandEdges = 1.55;  // how far from the surface phi must be exact
 
 void requireThat(bool holds, const char* what) {
@@ -63,6 +65,36 @@ SizingOptions sizingOptions(const SignedDistance& phi, const GenerateTetMeshOpti
   return sizing;
 }
 
+/// The part of the tets with a node inside that are green.
+double greenShare(const LatticeMesh& mesh) {
+  constexpr double kRedShape = 1.16;  // F of a BCC tet is 125/108
+  std::int64_t inside = 0, green = 0;
+  for (const Tet& tet : mesh.tets) {
+    const auto [a, b, c, d] = tet;
+    if (std::min(std::min(mesh.phi[a], mesh.phi[b]), std::min(mesh.phi[c], mesh.phi[d])) >= 0) continue;
+    ++inside;
+    const auto& x = mesh.positions;
+    green += shapeMeasure(x[d], x[a], x[b], x[c]) > kRedShape;
+  }
+  return inside > 0 ? static_cast<double>(green) / static_cast<double>(inside) : 0;
+}
+
+/// Green tets are the worse part of the family: where they would be too many, the whole surface gets the
+/// cubes that some of it asks for.
+LatticeMesh latticeFor(const SignedDistance& phi, const SizingOptions& sizing,
+                       GenerateTetMeshReport& report) {
+  LatticePlan plan = planLattice(phi, sizing);
+  while (true) {
+    RedGreenLattice lattice(plan.coarseCells, plan.levels);
+    const int finest = refineToSize(lattice, plan, phi, sizing);
+    report.finestCube = plan.cubeSize(finest);
+    report.latticeNodes = lattice.nodes().size();
+    LatticeMesh mesh = latticeMesh(lattice, plan, phi);
+    if (finest == plan.surfaceLevel || greenShare(mesh) <= kMostGreen) return mesh;
+    ++plan.surfaceLevel;
+  }
+}
+
 double maxBoundaryPhi(const TetMesh& mesh, const SignedDistance& phi) {
   double largest = 0;
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
@@ -82,11 +114,7 @@ TetMesh generateTetMesh(const SignedDistance& phi, const GenerateTetMeshOptions&
   StageClock clock(options, out);
 
   clock.start("lattice", 0);
-  const LatticePlan plan = planLattice(phi, sizing);
-  RedGreenLattice lattice(plan.coarseCells, plan.levels);
-  out.finestCube = plan.cubeSize(refineToSize(lattice, plan, phi, sizing));
-  const LatticeMesh background = latticeMesh(lattice, plan, phi);
-  out.latticeNodes = lattice.nodes().size();
+  const LatticeMesh background = latticeFor(phi, sizing, out);
 
   clock.start("candidate", 0.3);
   const NodeStars stars = nodeStars(background.positions.size(), background.tets);

@@ -112,7 +112,7 @@ class Refiner {
       : plan_(plan),
         phi_(phi),
         options_(options),
-        layer_(kSurfaceLayer * options.edgeLength),
+        layer_(kSurfaceLayer * plan.cubeSize(plan.surfaceLevel)),
         nearCubes_(plan, phi, layer_) {}
 
   /// Notes the tets to be refined below a tet, itself included.
@@ -225,15 +225,12 @@ Wishes collectWishes(const LatticePlan& plan, const SignedDistance& phi, const S
 
 }  // namespace
 
-int refineToSize(RedGreenLattice& lattice, const LatticePlan& plan, const SignedDistance& phi,
+int refineToSize(RedGreenLattice& lattice, LatticePlan& plan, const SignedDistance& phi,
                  const SizingOptions& options) {
-  LatticePlan uniform = plan;
-  SizingOptions sizes = options;
-  Wishes wishes = collectWishes(uniform, phi, sizes);
+  Wishes wishes = collectWishes(plan, phi, options);
   while (wishes.mostFiner()) {
-    ++uniform.surfaceLevel;
-    sizes.edgeLength *= 0.5;
-    wishes = collectWishes(uniform, phi, sizes);
+    ++plan.surfaceLevel;
+    wishes = collectWishes(plan, phi, options);
   }
   int finest = 0;
   for (const auto& [level, tet] : wishes.tets) {

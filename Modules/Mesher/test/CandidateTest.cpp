@@ -26,7 +26,7 @@ Background backgroundOf(const SignedDistance& phi, double edgeLength) {
   const SizingOptions options{.edgeLength = edgeLength,
                               .maxEdgeLength = 8 * edgeLength,
                               .minEdgeLength = std::min(phi.resolution(), edgeLength)};
-  const LatticePlan plan = planLattice(phi, options);
+  LatticePlan plan = planLattice(phi, options);
   RedGreenLattice lattice(plan.coarseCells, plan.levels);
   refineToSize(lattice, plan, phi, options);
   Background b{latticeMesh(lattice, plan, phi), {}};

@@ -19,7 +19,7 @@ TetMesh candidateOf(const SignedDistance& phi, double edgeLength, double maxOver
   const SizingOptions options{.edgeLength = edgeLength,
                               .maxEdgeLength = maxOverEdge * edgeLength,
                               .minEdgeLength = std::min(phi.resolution(), edgeLength)};
-  const LatticePlan plan = planLattice(phi, options);
+  LatticePlan plan = planLattice(phi, options);
   RedGreenLattice lattice(plan.coarseCells, plan.levels);
   refineToSize(lattice, plan, phi, options);
   const LatticeMesh mesh = latticeMesh(lattice, plan, phi);

@@ -276,6 +276,27 @@ TEST(GenerateTetMesh, ReportsTheFinestCubeUsedNotTheFinestAllowed) {
   EXPECT_EQ(report.finestCube, 2);  // a ball asks for nothing finer: 2 mm x (1/5 + 1/5) is below 1
 }
 
+TEST(GenerateTetMesh, WhereGreenTetsWouldBeTooManyTheWholeSurfaceBecomesFiner) {
+  // A box with rounded edges asks for finer cubes along twelve strips only: a few per cent of a large box,
+  // all around a small one.
+  const auto cubeAndMean = [](double half) {
+    const test::AnalyticBox box(Vector3d::Constant(-half), Vector3d::Constant(half), {.resolution = 0.5});
+    GenerateTetMeshReport report;
+    const TetMesh mesh = generateTetMesh(box, withEdge(1), &report);
+    std::int64_t coarse = 0;
+    for (const Tet& t : mesh.tets) {
+      const bool onSurface =
+          std::ranges::any_of(t, [&](std::int32_t n) { return mesh.kinds[n] == NodeKind::Boundary; });
+      const auto& x = mesh.nodes;
+      coarse += onSurface && (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]).dot(x[t[3]] - x[t[0]]) > 0.25;
+    }
+    return std::pair(coarse > 0, meshQuality(mesh).meanAspectRatio);
+  };
+  EXPECT_TRUE(cubeAndMean(12).first);
+  EXPECT_FALSE(cubeAndMean(3.3).first);
+  EXPECT_LT(cubeAndMean(3.3).second, 2.1);
+}
+
 /// Bytes of the arrays of a mesh: less than making it takes.
 double bytesOf(const TetMesh& mesh) {
   return static_cast<double>(mesh.nodes.size() * (sizeof(Vector3d) + sizeof(NodeKind)) +

@@ -24,7 +24,7 @@ Built built(const SignedDistance& phi, double edgeLength) {
   const SizingOptions options{.edgeLength = edgeLength,
                               .maxEdgeLength = 4 * edgeLength,
                               .minEdgeLength = std::min(phi.resolution(), edgeLength)};
-  const LatticePlan plan = planLattice(phi, options);
+  LatticePlan plan = planLattice(phi, options);
   RedGreenLattice lattice(plan.coarseCells, plan.levels);
   refineToSize(lattice, plan, phi, options);
   LatticeMesh mesh = latticeMesh(lattice, plan, phi);

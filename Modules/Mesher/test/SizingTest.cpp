@@ -19,6 +19,7 @@ constexpr double kNoBand = std::numeric_limits<double>::infinity();
 
 /// A refined lattice and its leaves in mm.
 struct Sized {
+  int asked = 0;  ///< level of the edge length asked for
   LatticePlan plan;
   RedGreenLattice lattice;
   std::vector<LatticeTet> leaves;
@@ -37,11 +38,12 @@ struct Sized {
 };
 
 Sized sized(const SignedDistance& phi, const SizingOptions& options) {
-  const LatticePlan plan = planLattice(phi, options);
+  LatticePlan plan = planLattice(phi, options);
+  const int asked = plan.surfaceLevel;
   RedGreenLattice lattice(plan.coarseCells, plan.levels);
   refineToSize(lattice, plan, phi, options);
   std::vector<LatticeTet> leaves = test::allLeaves(lattice);
-  return {plan, std::move(lattice), std::move(leaves)};
+  return {asked, plan, std::move(lattice), std::move(leaves)};
 }
 
 /// Calls visit(point) on a regular grid of points of a tet, its corners included.
@@ -192,7 +194,7 @@ std::pair<int, int> levelsAtTheSurface(const SignedDistance& phi, const SizingOp
   std::pair<int, int> range{99, -99};
   for (const LatticeTet& leaf : s.leaves) {
     if (!changesSign(s, phi, leaf)) continue;
-    const int level = leaf.level - s.plan.surfaceLevel;
+    const int level = leaf.level - s.asked;
     range = {std::min(range.first, level), std::max(range.second, level)};
   }
   return range;
@@ -238,7 +240,7 @@ TEST(Sizing, LevelsOptionCapsTheRefinement) {
     int level = 0;
     for (const LatticeTet& leaf : s.leaves) level = std::max(level, leaf.level);
     EXPECT_LE(s.lattice.levels(), cap == 0 ? 99 : cap);
-    return level - s.plan.surfaceLevel;
+    return level - s.asked;
   };
   EXPECT_EQ(finest(1), 0);
   EXPECT_EQ(finest(2), 0);

@@ -52,6 +52,8 @@ void measureSurface(const TetMesh& mesh, const std::vector<Triangle>& triangles,
   fidelity.surfaceMax = deviation.max();
 }
 
+}  // namespace
+
 double meshVolume(const TetMesh& mesh) {
   double sixfold = 0;
   for (const auto& [a, b, c, d] : mesh.tets) {
@@ -61,7 +63,12 @@ double meshVolume(const TetMesh& mesh) {
   return sixfold / 6;
 }
 
-}  // namespace
+double boundaryArea(const TetMesh& mesh) {
+  double twofold = 0;
+  for (const auto& [a, b, c] : meshBoundary(mesh).triangles)
+    twofold += (mesh.nodes[b] - mesh.nodes[a]).cross(mesh.nodes[c] - mesh.nodes[a]).norm();
+  return twofold / 2;
+}
 
 FidelityReport measureFidelity(const TetMesh& mesh, const std::vector<Triangle>& boundary,
                                const SignedDistance& surface, const Eigen::Isometry3d& frame,

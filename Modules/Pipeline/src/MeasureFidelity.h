@@ -13,6 +13,11 @@ struct FidelityReport {
   LostPieces lost;
 };
 
+/// In mm^3. Cost: O(tets).
+double meshVolume(const TetMesh& mesh);
+/// In mm^2. Cost: O(tets).
+double boundaryArea(const TetMesh& mesh);
+
 /// @param mesh      in LPS mm
 /// @param boundary  its boundary triangles
 /// @param surface   the level set that the mesh was made from, in its own frame

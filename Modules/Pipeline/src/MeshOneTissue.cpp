@@ -2,11 +2,13 @@
 
 #include "LevelSetSurface.h"
 #include "MeasureFidelity.h"
+#include "OffsetSurface.h"
 #include "sinew/MeshIO/VtuFile.h"
 #include "sinew/Pipeline/Memory.h"
 #include "sinew/Pipeline/OutputFile.h"
 #include "sinew/Segmentation/LabelComponents.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -123,12 +125,32 @@ class TissueRun {
       throw std::runtime_error("the mesh would take about " + formatBytes(memory) + " of memory, but " +
                                formatBytes(availableMemory_) + " is available; use a larger edge length");
     advance("lattice", kAfterLevelSet);
-    GenerateTetMeshReport mesher;
-    TetMesh mesh = generateTetMesh(*surface_, options, &mesher);
-    for (const auto& stage : mesher.stages) report_.seconds.emplace_back(stage.name, stage.seconds);
+    TetMesh mesh = generateOn(*surface_, options);
+    surfaceOffset_ = offsetForVolume(mesh);
+    if (surfaceOffset_ > 0) {
+      options.progress = [this](std::string_view, double) { advance("keeping the volume", kAfterMesh); };
+      mesh = generateOn(OffsetSurface(*surface_, surfaceOffset_), options);
+    }
     watch_.lap();
     for (Eigen::Vector3d& node : mesh.nodes) node = frame_ * node;
     return mesh;
+  }
+
+  TetMesh generateOn(const SignedDistance& surface, const GenerateTetMeshOptions& options) {
+    GenerateTetMeshReport mesher;
+    TetMesh mesh = generateTetMesh(surface, options, &mesher);
+    for (const auto& [stage, seconds] : mesher.stages) addSeconds(stage, seconds);
+    return mesh;
+  }
+
+  /// Flat triangles cut off what is round: where a mesh misses a noticeable part of the volume, its target is
+  /// moved outwards by what is missing over its area, mm.
+  double offsetForVolume(const TetMesh& mesh) const {
+    constexpr double kNoticeable = 0.01;     // of the volume
+    constexpr double kLargestOffset = 0.05;  // edge lengths
+    const double missing = volumes_.levelSetVolume - meshVolume(mesh);
+    if (mesh.tets.empty() || missing <= kNoticeable * volumes_.levelSetVolume) return 0;
+    return std::min(missing / boundaryArea(mesh), kLargestOffset * job_.sizes.edge);
   }
 
   void measure(const TetMesh& mesh) {
@@ -141,8 +163,10 @@ class TissueRun {
     report_.levelSetComponents = topology.components;
     report_.levelSetEuler = topology.eulerCharacteristic;
     const FidelityReport fidelity =
-        measureFidelity(mesh, boundary.triangles, *surface_, frame_, volumes_, segmentation_, tissue_);
+        measureFidelity(mesh, boundary.triangles, OffsetSurface(*surface_, surfaceOffset_), frame_, volumes_,
+                        segmentation_, tissue_);
     report_.fidelity = fidelity.fidelity;
+    report_.fidelity.surfaceOffset = surfaceOffset_;
     report_.lost = fidelity.lost;
     surface_.reset();
     lap("measuring");
@@ -164,7 +188,8 @@ class TissueRun {
     constexpr double kLargeVolumeError = 0.2;
     std::vector<std::string> parts;
     if (job_.sizeReduced)
-      parts.push_back("edge length reduced to " + number(job_.sizes.edge) + " mm, the extent of the tissue");
+      parts.push_back("edge length reduced to " + number(job_.sizes.edge) +
+                      " mm, to fit the tissue");
     const double ratio = report_.fidelity.volume / report_.fidelity.labelVolume;
     if (std::abs(ratio - 1) > kLargeVolumeError)
       parts.push_back("volume is " + number(100 * ratio) + " % of the label's; a smaller --size may help");
@@ -177,7 +202,15 @@ class TissueRun {
     return text;
   }
 
-  void lap(const std::string& stage) { report_.seconds.emplace_back(stage, watch_.lap()); }
+  void lap(const std::string& stage) { addSeconds(stage, watch_.lap()); }
+
+  void addSeconds(const std::string& stage, double seconds) {
+    const auto same = std::ranges::find(report_.seconds, stage, &std::pair<std::string, double>::first);
+    if (same != report_.seconds.end())
+      same->second += seconds;
+    else
+      report_.seconds.emplace_back(stage, seconds);
+  }
 
   const Segmentation& segmentation_;
   const Tissue& tissue_;
@@ -187,6 +220,7 @@ class TissueRun {
   ProgressSum& progress_;
   Stopwatch watch_;
   Eigen::Isometry3d frame_;
+  double surfaceOffset_ = 0;
   LevelSetFromLabelsReport volumes_;
   std::unique_ptr<LevelSetSurface> surface_;
   TissueReport report_;

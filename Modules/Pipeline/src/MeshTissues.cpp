@@ -73,21 +73,36 @@ int tissuesInFlight(const Segmentation& segmentation, const std::vector<TissueJo
   return count;
 }
 
-/// A cube larger than the tissue stands for nothing: no edge length exceeds the tissue's largest extent.
-TissueSizes fittingSizes(const ImageGeometry& geometry, const Tissue& tissue, const TissueSizes& wanted) {
+/// How large a tissue is, mm.
+struct Extent {
+  double largest;  ///< longest side of its box
+  double mean;     ///< side of the cube of its volume
+};
+
+Extent extentOf(const ImageGeometry& geometry, const Tissue& tissue) {
   const Eigen::Vector3d sides =
       (tissue.box.upper - tissue.box.lower).cast<double>().cwiseProduct(geometry.spacing);
-  const double extent = sides.maxCoeff();
-  return {std::min(wanted.edge, extent), std::min(wanted.largest, extent)};
+  return {sides.maxCoeff(), std::cbrt(static_cast<double>(tissue.voxels) * geometry.voxelVolume())};
+}
+
+/// A cube larger than the tissue stands for nothing. Who asks for cubes of two voxels or less, as by default,
+/// wants to see specks too: they get three cubes along their mean extent.
+TissueSizes fittingSizes(const Extent& extent, double voxel, const TissueSizes& wanted) {
+  constexpr double kFineVoxels = 2 * (1 + 1e-9), kCubesAlong = 3;
+  const double edge =
+      std::min(wanted.edge, wanted.edge <= kFineVoxels * voxel ? extent.mean / kCubesAlong : extent.largest);
+  return {edge, std::max(edge, std::min(wanted.largest, extent.largest))};
 }
 
 /// The mesher looks for the surface up to 1.55 edge lengths away; samples much finer than the lattice buy
-/// nothing.
-LevelSetFromLabelsOptions levelSetOptions(const ImageGeometry& geometry, double edgeLength,
+/// nothing, but a speck is sampled more finely than its voxels.
+LevelSetFromLabelsOptions levelSetOptions(const ImageGeometry& geometry, double meanExtent, double edgeLength,
                                           LevelSetFromLabelsOptions options) {
-  constexpr double kBandEdges = 1.6, kSamplesPerEdge = 5;
+  constexpr double kBandEdges = 1.6, kSamplesPerEdge = 5, kSamplesAlong = 12, kFinestSpeck = 1.0 / 3;
+  const double voxel = defaultGridSpacing(geometry);
   if (options.gridSpacing <= 0)
-    options.gridSpacing = std::max(defaultGridSpacing(geometry), edgeLength / kSamplesPerEdge);
+    options.gridSpacing = std::max(
+        {edgeLength / kSamplesPerEdge, kFinestSpeck * voxel, std::min(voxel, meanExtent / kSamplesAlong)});
   options.bandVoxels = std::max(options.bandVoxels, kBandEdges * edgeLength / options.gridSpacing);
   return options;
 }
@@ -97,9 +112,10 @@ TissueJob makeJob(const Segmentation& segmentation, int index, const TissueSizes
   const Tissue& tissue = segmentation.tissues[index];
   TissueJob job;
   job.tissue = index;
-  job.sizes = fittingSizes(segmentation.geometry, tissue, wanted);
+  const Extent extent = extentOf(segmentation.geometry, tissue);
+  job.sizes = fittingSizes(extent, segmentation.geometry.meanSpacing(), wanted);
   job.sizeReduced = job.sizes.edge < wanted.edge;
-  job.levelSet = levelSetOptions(segmentation.geometry, job.sizes.edge, options.levelSet);
+  job.levelSet = levelSetOptions(segmentation.geometry, extent.mean, job.sizes.edge, options.levelSet);
   job.cost = estimateCost(segmentation, tissue, job.sizes, job.levelSet);
   return job;
 }

@@ -36,7 +36,8 @@ Json toJsonObject(const MeshTopology& topology) {
 }
 
 Json toJsonObject(const Fidelity& fidelity) {
-  return {{"max_boundary_phi_mm", fidelity.maxBoundaryPhi},
+  return {{"surface_offset_mm", fidelity.surfaceOffset},
+          {"max_boundary_phi_mm", fidelity.maxBoundaryPhi},
           {"surface_rms_mm", fidelity.surfaceRms},
           {"surface_max_mm", fidelity.surfaceMax},
           {"volume_mm3", fidelity.volume},

@@ -57,7 +57,7 @@ TEST(Report, HasTheFieldsThatReadersExpect) {
   EXPECT_EQ(
       keys(tissue["fidelity"]),
       (std::vector<std::string>{"dice", "label_volume_mm3", "level_set_volume_mm3", "max_boundary_phi_mm",
-                                "surface_max_mm", "surface_rms_mm", "volume_mm3"}));
+                                "surface_max_mm", "surface_offset_mm", "surface_rms_mm", "volume_mm3"}));
   EXPECT_EQ(keys(tissue["lost"]), (std::vector<std::string>{"components", "volume_mm3"}));
 }
 

@@ -26,7 +26,7 @@ struct LatticePlan {
   LatticeFrame frame;
   Int3 coarseCells;
   int levels = 1;
-  int surfaceLevel = 0;  ///< level whose cubes have the edge length
+  int surfaceLevel = 0;  ///< level of the coarsest cubes at the surface: at first those of the edge length
   double cubeSize(int level) const { return 2 * frame.halfCube * (1 << (levels - 1 - level)); }
 };
 
@@ -35,11 +35,11 @@ struct LatticePlan {
 LatticePlan planLattice(const SignedDistance& phi, const SizingOptions& options);
 
 /// Refines the lattice: cubes of edgeLength or less within one edge length of the surface, finer ones where
-/// curvature or thickness ask (Teran et al. 2005, section 5), graded by the hierarchy elsewhere. Closes the
-/// hierarchy. Cost: O(shape's surface / edgeLength^2 + bounds / band^3); parallel, the same for any number of
+/// curvature or thickness ask (Teran et al. 2005, section 5), graded by the hierarchy elsewhere; where much of
+/// the surface asks, all of it becomes finer and plan.surfaceLevel rises. Closes the hierarchy. Cost: O(shape's surface / edgeLength^2 + bounds / band^3); parallel, the same for any number of
 /// threads.
 /// @return the finest level with tets
-int refineToSize(RedGreenLattice& lattice, const LatticePlan& plan, const SignedDistance& phi,
+int refineToSize(RedGreenLattice& lattice, LatticePlan& plan, const SignedDistance& phi,
                  const SizingOptions& options);
 
 }  // namespace sinew

@@ -28,8 +28,9 @@ struct MeshTissuesOptions {
 enum class TissueStatus { Meshed, Lost, Failed };
 
 struct Fidelity {
-  double maxBoundaryPhi = 0;  ///< largest |phi| at a boundary node, mm
-  double surfaceRms = 0;      ///< distance of boundary nodes, edge midpoints and centroids from phi = 0, mm
+  double surfaceOffset = 0;   ///< the mesh lies on phi = surfaceOffset, mm: > 0 where that keeps the volume
+  double maxBoundaryPhi = 0;  ///< largest distance of a boundary node from that surface, mm
+  double surfaceRms = 0;      ///< distance of boundary nodes, edge midpoints and centroids from it, mm
   double surfaceMax = 0;      ///< mm
   double volume = 0;          ///< of the mesh, mm^3
   double labelVolume = 0;     ///< mm^3
