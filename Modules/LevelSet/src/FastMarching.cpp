@@ -14,7 +14,7 @@ namespace sinew {
 namespace {
 
 /// Edge of a tile without its halo, samples: with the halo of a usual band a tile fits a core's cache.
-constexpr int kTile = 64;
+constexpr int kTile = 96;
 
 /// The raster in tiles that are marched one by one, each with a halo as wide as the band reaches: what lies
 /// farther cannot be the closest part of the surface. Tiles write their own samples only; of a neighbour's

@@ -34,8 +34,8 @@ struct Descent {
   double threshold = 0;
   double ceiling = kInfinity;
 };
-constexpr Descent kSettle{2, 2};
-constexpr std::array<Descent, 4> kPolish{{{3, 4}, {4, 8, 1.5}, {6, 16, 2.0}, {3, 1, 0, 1.6}}};
+constexpr Descent kSettle{1, 2};
+constexpr std::array<Descent, 4> kPolish{{{2, 4}, {4, 8, 1.5}, {4, 16, 2.0}, {2, 1, 0, 1.6}}};
 
 constexpr int kFinishSweeps = 16;
 constexpr int kFinishPower = 16;
@@ -250,63 +250,91 @@ class Compressor {
   /// The last descent: on the sum of m^p over the stars of the nodes of tets that miss the goals.
   void finish() {
     std::fill(stirred_.begin(), stirred_.end(), std::uint8_t{1});
-    for (int sweep = 0; sweep < kFinishSweeps && wakeWorst(); ++sweep) {
-      forEachNode([&](std::int32_t n, NodeStar& star) {
-        if (std::exchange(stirred_[n], std::uint8_t{0}) != 0) descendGoal(n, star);
+    awake_ = nodesOfWorstTets();
+    for (int sweep = 0; sweep < kFinishSweeps && any(awake_); ++sweep) {
+      forEachNode([&](std::int32_t n, NodeStar&) {
+        if (std::exchange(stirred_[n], std::uint8_t{0}) != 0) descendGoal(n);
       });
+      awake_ = nodesOfWorstTetsAroundAwake();
     }
     std::fill(awake_.begin(), awake_.end(), std::uint8_t{1});
   }
 
-  /// Wakes the active nodes of tets that miss the goals. Only tets with a node that was awake can have
-  /// changed, and a tet without one was good.
-  bool wakeWorst() {
-    std::vector<std::uint8_t> awake(active_.size(), 0);
-    const auto& x = mesh_.nodes;
-    for (const Tet& tet : mesh_.tets) {
-      const bool changed = std::any_of(tet.begin(), tet.end(), [&](std::int32_t v) {
-        return active_.indexOf[v] >= 0 && awake_[active_.indexOf[v]] != 0;
-      });
-      if (!changed || goalMeasure(x[tet[3]], x[tet[0]], x[tet[1]], x[tet[2]]) <= kFinishAbove) continue;
-      for (const std::int32_t v : tet) {
-        if (active_.indexOf[v] >= 0) awake[active_.indexOf[v]] = 1;
-      }
-    }
-    awake_.swap(awake);
-    return std::find(awake_.begin(), awake_.end(), std::uint8_t{1}) != awake_.end();
+  static bool any(const std::vector<std::uint8_t>& flags) {
+    return std::find(flags.begin(), flags.end(), std::uint8_t{1}) != flags.end();
   }
 
-  double goalEnergy(const Vector3d& x, std::span<const StarFaceNodes> tets) const {
-    double energy = 0;
-    for (const auto& [a, b, c] : tets) {
-      energy += power(goalMeasure(x, mesh_.nodes[a], mesh_.nodes[b], mesh_.nodes[c]), kFinishPower);
+  double goalOf(const Vector3d& x, const StarFaceNodes& face) const {
+    return goalMeasure(x, mesh_.nodes[face[0]], mesh_.nodes[face[1]], mesh_.nodes[face[2]]);
+  }
+
+  std::vector<std::uint8_t> nodesOfWorstTets() const {
+    std::vector<std::uint8_t> flags(active_.size(), 0);
+    for (const Tet& tet : mesh_.tets) {
+      if (goalOf(mesh_.nodes[tet[3]], {tet[0], tet[1], tet[2]}) <= kFinishAbove) continue;
+      for (const std::int32_t v : tet) {
+        if (active_.indexOf[v] >= 0) flags[active_.indexOf[v]] = 1;
+      }
     }
+    return flags;
+  }
+
+  /// Only tets with a node that was awake can have changed, and a tet without one was good.
+  std::vector<std::uint8_t> nodesOfWorstTetsAroundAwake() const {
+    std::vector<std::uint8_t> flags(active_.size(), 0);
+    for (std::size_t n = 0; n < awake_.size(); ++n) {
+      if (awake_[n] == 0) continue;
+      const Vector3d& x = mesh_.nodes[active_.nodes[n]];
+      for (const StarFaceNodes& face : active_.star(static_cast<std::int32_t>(n))) {
+        if (goalOf(x, face) <= kFinishAbove) continue;
+        flags[n] = 1;
+        for (const std::int32_t v : face) {
+          if (active_.indexOf[v] >= 0) flags[active_.indexOf[v]] = 1;
+        }
+      }
+    }
+    return flags;
+  }
+
+  /// Sum of m^p, or anything above `enough` once it is.
+  double goalEnergy(const Vector3d& x, std::span<const StarFaceNodes> tets, double enough = kInfinity) const {
+    double energy = 0;
+    for (std::size_t t = 0; t < tets.size() && energy <= enough; ++t)
+      energy += power(goalOf(x, tets[t]), kFinishPower);
     return energy;
   }
 
-  /// The tets of a star that have a say in the gradient of its goal energy: a measure of less than 0.7 of the
-  /// worst is 1/300 to the power of 16.
-  std::vector<StarFaceNodes> decisiveTets(const Vector3d& x, std::span<const StarFaceNodes> tets) const {
-    constexpr double kDecisive = 0.7;
+  /// The tets of a star, those first that decide on the gradient of its goal energy.
+  struct GoalStar {
+    std::vector<StarFaceNodes> tets;
+    std::size_t decisive = 0;
+    double energy = 0;
+    double shortestEdge = kInfinity;
+  };
+
+  GoalStar goalStar(const Vector3d& x, std::span<const StarFaceNodes> tets) const {
+    constexpr double kDecisive = 0.7;  // of the worst measure: less is 1/300 to the power of 16
+    GoalStar star{{tets.begin(), tets.end()}};
     std::vector<double> measures;
-    for (const auto& [a, b, c] : tets)
-      measures.push_back(goalMeasure(x, mesh_.nodes[a], mesh_.nodes[b], mesh_.nodes[c]));
+    for (const StarFaceNodes& face : tets) {
+      measures.push_back(goalOf(x, face));
+      star.energy += power(measures.back(), kFinishPower);
+      for (const std::int32_t v : face)
+        star.shortestEdge = std::min(star.shortestEdge, (mesh_.nodes[v] - x).norm());
+    }
     const double least = kDecisive * *std::max_element(measures.begin(), measures.end());
-    std::vector<StarFaceNodes> decisive;
     for (std::size_t t = 0; t < tets.size(); ++t)
-      if (measures[t] >= least) decisive.push_back(tets[t]);
-    return decisive;
+      if (measures[t] >= least) std::swap(star.tets[star.decisive++], star.tets[t]);
+    return star;
   }
 
-  void descendGoal(std::int32_t n, NodeStar& star) {
-    gather(n, star);
-    const Vector3d x = star.origin();
-    const double scale = star.shortestEdge();
-    const double energy = goalEnergy(x, active_.star(n));
-    const std::vector<StarFaceNodes> decisive = decisiveTets(x, active_.star(n));
+  void descendGoal(std::int32_t n) {
+    const Vector3d x = position(n);
+    const GoalStar star = goalStar(x, active_.star(n));
+    const std::span<const StarFaceNodes> decisive(star.tets.data(), star.decisive);
     Vector3d gradient;
     for (int axis = 0; axis < 3; ++axis) {
-      const Vector3d offset = 1e-4 * scale * Vector3d::Unit(axis);
+      const Vector3d offset = 1e-4 * star.shortestEdge * Vector3d::Unit(axis);
       gradient[axis] = goalEnergy(x + offset, decisive) - goalEnergy(x - offset, decisive);
     }
     if (isBoundary(n)) {
@@ -317,10 +345,10 @@ class Compressor {
     const double norm = gradient.norm();
     if (!(norm > 0) || !std::isfinite(norm)) return;
     for (double step = 0.16; step > 0.002; step *= 0.5) {
-      const Vector3d moved = x - step * scale / norm * gradient;
+      const Vector3d moved = x - step * star.shortestEdge / norm * gradient;
       const std::optional<Vector3d> target =
           isBoundary(n) ? project_(moved, level_[n]) : std::optional(moved);
-      if (target && goalEnergy(*target, active_.star(n)) < energy) {
+      if (target && goalEnergy(*target, star.tets, star.energy) < star.energy) {
         moveTo(n, *target);
         return;
       }

@@ -156,18 +156,6 @@ void NodeStar::gather(std::span<const StarFaceNodes> faces, const std::vector<Ve
   fillCoefficients(corners, capacity_, tets_, origin.x(), origin.y(), origin.z(), row(kNx));
 }
 
-double NodeStar::shortestEdge() const {
-  double shortest2 = kInfinity;
-  for (std::size_t t = 0; t < tets_; ++t)
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      Vector3d edge = -origin_;
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        edge[static_cast<Eigen::Index>(axis)] += row(kCorners)[(3 * corner + axis) * capacity_ + t];
-      shortest2 = std::min(shortest2, edge.squaredNorm());
-    }
-  return std::sqrt(shortest2);
-}
-
 StarValue NodeStar::value(const Vector3d& x, int q) const {
   const Vector3d d = x - origin_;
   const Rows rows{row(kNx), row(kNy), row(kNz), row(kV), row(kSx), row(kSy), row(kSz), row(kL), tets_};

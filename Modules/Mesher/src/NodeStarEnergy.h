@@ -69,7 +69,6 @@ class NodeStar {
   StarValue value(const Eigen::Vector3d& x, int q) const;
   /// At the origin, where all tets must be positive.
   StarDerivatives derivatives(int q) const;
-  double shortestEdge() const;
 
  private:
   enum Row { kNx, kNy, kNz, kV, kSx, kSy, kSz, kL, kCorners, kRows = kCorners + 9 };

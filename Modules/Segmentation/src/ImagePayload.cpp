@@ -66,7 +66,7 @@ std::vector<std::int32_t> readPayload(const fs::path& file, const ImageGeometry&
 
   const auto voxels = static_cast<std::size_t>(geometry.voxelCount());
   std::vector<std::int32_t> labels;
-  labels.reserve(voxels);  // grown chunk by chunk: what is not there to be read touches no memory
+  labels.reserve(voxels);
   std::vector<std::byte> stored(chunk * valueBytes);
   std::vector<float> real(scaled ? chunk : 0);
   for (std::size_t first = 0; first < voxels; first += chunk) {

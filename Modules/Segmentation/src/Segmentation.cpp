@@ -44,6 +44,19 @@ class ExtentTable {
   LabelExtents extents_;
 };
 
+/// The first voxel behind i whose label differs, in blocks that the compiler can compare at once.
+int endOfRun(const std::int32_t* row, int i, int end) {
+  constexpr int kBlock = 32;
+  const std::int32_t label = row[i];
+  for (; i + kBlock <= end; i += kBlock) {
+    std::int32_t different = 0;
+    for (int b = 0; b < kBlock; ++b) different |= row[i + b] ^ label;
+    if (different != 0) break;
+  }
+  while (i < end && row[i] == label) ++i;
+  return i;
+}
+
 LabelExtents labelExtents(const std::vector<std::int32_t>& layer, const Eigen::Vector3i& size) {
   ExtentTable table;
   const std::int32_t* row = layer.data();
@@ -52,8 +65,7 @@ LabelExtents labelExtents(const std::vector<std::int32_t>& layer, const Eigen::V
       for (int i = 0; i < size.x();) {
         const std::int32_t label = row[i];
         const int first = i;
-        while (++i < size.x() && row[i] == label) {
-        }
+        i = endOfRun(row, i, size.x());
         if (label != 0) table[label].addRun(first, i, j, k);
       }
   return table.take();
