@@ -2,6 +2,7 @@
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(TBB REQUIRED)
 find_package(ZLIB REQUIRED)
+find_package(ISAL REQUIRED)
 find_package(nlohmann_json REQUIRED)
 set(CMAKE_MESSAGE_LOG_LEVEL WARNING)  # notices of Imath and gdcm about parts that nobody needs
 find_package(OpenVDB 10 REQUIRED)

@@ -6,5 +6,5 @@ configure_package_config_file(cmake/SinewConfig.cmake.in ${PROJECT_BINARY_DIR}/S
                               INSTALL_DESTINATION ${config_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/SinewConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/SinewConfig.cmake ${PROJECT_BINARY_DIR}/SinewConfigVersion.cmake
-              cmake/FindOpenVDB.cmake cmake/SinewDependencies.cmake
+              cmake/FindISAL.cmake cmake/FindOpenVDB.cmake cmake/SinewDependencies.cmake
         DESTINATION ${config_dir})

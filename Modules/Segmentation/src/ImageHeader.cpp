@@ -2,7 +2,7 @@
 
 #include "ImageFormats.h"
 #include "Text.h"
-#include "ZlibStreams.h"
+#include "UnpackStream.h"
 
 #include <Eigen/LU>
 

@@ -1,7 +1,7 @@
 #include "ImagePayload.h"
 
 #include "Text.h"
-#include "ZlibStreams.h"
+#include "UnpackStream.h"
 
 #include <algorithm>
 #include <span>

@@ -1,6 +1,6 @@
 #include "ImageFormats.h"
 #include "Text.h"
-#include "ZlibStreams.h"
+#include "UnpackStream.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 
 #include "SlicerKeys.h"
 #include "Text.h"
-#include "ZlibStreams.h"
+#include "GzipWriter.h"
 
 #include <algorithm>
 #include <array>

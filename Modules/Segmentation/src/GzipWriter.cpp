@@ -1,0 +1,42 @@
+#include "GzipWriter.h"
+
+#include <new>
+#include <zlib.h>
+
+namespace sinew {
+
+namespace {
+
+constexpr std::size_t kBuffer = 1 << 16;  // bytes
+constexpr int kWindow = 15, kGzipWrapper = 16;
+
+}  // namespace
+
+GzipWriter::GzipWriter(std::ostream& out)
+    : out_(out), packed_(kBuffer), stream_(std::make_unique<z_stream>()) {
+  constexpr int memoryLevel = 8;  // zlib's default
+  if (deflateInit2(stream_.get(), Z_DEFAULT_COMPRESSION, Z_DEFLATED, kWindow + kGzipWrapper, memoryLevel,
+                   Z_DEFAULT_STRATEGY) != Z_OK)
+    throw std::bad_alloc();
+}
+
+GzipWriter::~GzipWriter() { deflateEnd(stream_.get()); }
+
+void GzipWriter::write(std::span<const std::byte> bytes) { deflateAll(bytes, Z_NO_FLUSH); }
+
+void GzipWriter::finish() { deflateAll({}, Z_FINISH); }
+
+void GzipWriter::deflateAll(std::span<const std::byte> bytes, int flush) {
+  stream_->next_in =
+      reinterpret_cast<unsigned char*>(const_cast<std::byte*>(bytes.data()));  // zlib only reads
+  stream_->avail_in = static_cast<uInt>(bytes.size());
+  do {
+    stream_->next_out = packed_.data();
+    stream_->avail_out = static_cast<uInt>(packed_.size());
+    deflate(stream_.get(), flush);
+    out_.write(reinterpret_cast<const char*>(packed_.data()),
+               static_cast<std::streamsize>(packed_.size() - stream_->avail_out));
+  } while (stream_->avail_out == 0);
+}
+
+}  // namespace sinew
