@@ -18,9 +18,9 @@ namespace {
 constexpr double kMaxAspectRatio = 3.5;
 constexpr double kMinDihedralDeg = 25;
 constexpr double kMaxDihedralDeg = 140;
-constexpr int kMaxRounds = 24;
+constexpr int kMaxRounds = 40;
 constexpr int kPatchRings = 3;           // rings of nodes around what was given up that move again
-constexpr std::size_t kMostChoices = 6;  // nodes that are tried at a spot, one after the other
+constexpr std::size_t kMostChoices = 6;  // nodes that are tried at a spot
 
 using Nodes = std::vector<std::int32_t>;
 
@@ -34,24 +34,22 @@ struct Spot {
   }
 };
 
-/// How bad a patch is: the number of its spots, then the worst of them.
-struct Badness {
-  std::size_t spots = 0;
-  double worst = 0;
-
+/// How bad a patch is: a sum over its spots in which the worst outweighs several that are just bad.
+class Badness {
+ public:
   void add(const Spot& spot) {
-    ++spots;
-    worst = std::max(worst, spot.badness);
+    constexpr int kPower = 8;
+    sum_ += power(spot.badness, kPower);
   }
-  bool operator<(const Badness& other) const {
-    return spots != other.spots ? spots < other.spots : worst < other.worst;
-  }
+  bool operator<(const Badness& other) const { return sum_ < other.sum_; }
+
+ private:
+  double sum_ = 0;
 };
 
 /// A trial: what was given up, and the nodes that move again.
 struct Patch {
   Nodes key;  ///< the spot's nodes
-  bool lastResort = false;
   Nodes released;
   Nodes region;
   Badness before, after;
@@ -124,14 +122,11 @@ class LocalRepair {
     std::vector<Patch> patches;
     for (const Spot& spot : spots_) {
       if (isTaken(spot.nodes)) continue;
-      const Nodes choices = choicesAt(spot);
-      const std::size_t trial = trials_[spot.nodes];
-      const bool lastResort = spot.badness == kInfinity && trial == choices.size();
-      if (choices.empty() || (trial >= choices.size() && !lastResort)) continue;
       Patch patch;
       patch.key = spot.nodes;
-      patch.lastResort = lastResort;
-      patch.released = releaseNodes(set_, lastResort ? choices : Nodes{choices[trial]});
+      const Nodes choice = choiceAt(spot, trials_[spot.nodes]);
+      if (choice.empty()) continue;
+      patch.released = releaseNodes(set_, choice);
       patch.region = regionAround(patch.released);
       if (isTaken(patch.region)) {
         putBack(patch);
@@ -150,8 +145,19 @@ class LocalRepair {
     for (const std::int32_t n : nodes) patchOf_[n] = patch;
   }
 
+  /// What is given up at a spot in the k-th trial: its shallowest enveloped node; that of all spots around
+  /// too; all the nodes at the spot; then one after the other. Empty when all has been tried.
+  Nodes choiceAt(const Spot& spot, std::size_t trial) const {
+    const Nodes nodes = envelopedAt(spot);
+    if (nodes.empty() || trial > nodes.size() + 1) return {};
+    if (trial == 0) return {nodes[0]};
+    if (trial == 1) return shallowestAround(nodes[0]);
+    if (trial == 2) return nodes;
+    return {nodes[trial - 2]};
+  }
+
   /// The enveloped nodes of the tets at a spot, the shallowest first.
-  Nodes choicesAt(const Spot& spot) const {
+  Nodes envelopedAt(const Spot& spot) const {
     std::vector<std::pair<double, std::int32_t>> found;
     for (const std::int32_t n : spot.nodes) {
       for (const std::int32_t t : stars_.of(n)) {
@@ -162,10 +168,24 @@ class LocalRepair {
     }
     std::ranges::sort(found);
     found.erase(std::unique(found.begin(), found.end()), found.end());
-    Nodes choices;
-    for (const auto& [depth, v] : found)
-      if (choices.size() < kMostChoices) choices.push_back(v);
-    return choices;
+    if (found.size() > kMostChoices) found.resize(kMostChoices);
+    Nodes nodes;
+    for (const auto& [depth, v] : found) nodes.push_back(v);
+    return nodes;
+  }
+
+  Nodes shallowestAround(std::int32_t node) const {
+    const Nodes around = regionAround({node});
+    Nodes nodes;
+    for (const Spot& spot : spots_) {
+      const bool near = std::ranges::any_of(
+          spot.nodes, [&](std::int32_t n) { return std::ranges::binary_search(around, n); });
+      const Nodes choices = near ? envelopedAt(spot) : Nodes{};
+      if (!choices.empty()) nodes.push_back(choices.front());
+    }
+    std::ranges::sort(nodes);
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    return nodes;
   }
 
   void putBack(const Patch& patch) {
@@ -210,7 +230,7 @@ class LocalRepair {
     std::int64_t accepted = 0;
     std::vector<std::uint8_t> better(patches.size());
     for (std::size_t p = 0; p < patches.size(); ++p) {
-      better[p] = patches[p].after < patches[p].before || patches[p].lastResort;
+      better[p] = patches[p].after < patches[p].before;
       accepted += better[p];
       if (better[p] != 0) continue;
       putBack(patches[p]);
