@@ -14,11 +14,19 @@
 namespace sinew {
 namespace {
 
-/// What a tet must not exceed without a trial to mend it.
-constexpr double kMaxAspectRatio = 3.5;
-constexpr double kMinDihedralDeg = 25;
-constexpr double kMaxDihedralDeg = 140;
+/// Beyond these a tet is worth a trial to mend it, and beyond the second ones it must go.
+struct Limits {
+  double aspectRatio, minDihedralDeg, maxDihedralDeg;
+
+  bool exceededBy(const TetQuality& q) const {
+    return q.aspectRatio > aspectRatio || q.minDihedralDeg < minDihedralDeg ||
+           q.maxDihedralDeg > maxDihedralDeg;
+  }
+};
+constexpr Limits kBad{3.5, 25, 140}, kGrave{4.2, 20, 142};
 constexpr int kMaxRounds = 40;
+constexpr int kMostRounds = 400;         // while there are grave spots
+constexpr std::size_t kGraveTrials = 4;  // at a grave spot, before something is given up for good
 constexpr int kPatchRings = 3;           // rings of nodes around what was given up that move again
 constexpr std::size_t kMostChoices = 6;  // nodes that are tried at a spot
 
@@ -28,37 +36,39 @@ using Nodes = std::vector<std::int32_t>;
 struct Spot {
   Nodes nodes;
   double badness;  ///< goal measure; infinite for a node off the surface
+  bool grave;      ///< must go, even at the price of other bad tets
 
   bool operator<(const Spot& other) const {
     return badness != other.badness ? badness > other.badness : nodes < other.nodes;
   }
 };
 
-/// How bad a patch is: a sum over its spots in which the worst outweighs several that are just bad.
+/// How bad a patch is: the grave spots, then a sum over the others in which the worst outweighs several that
+/// are just bad.
 class Badness {
  public:
   void add(const Spot& spot) {
     constexpr int kPower = 8;
-    sum_ += power(spot.badness, kPower);
+    graves_ += spot.grave;
+    if (!spot.grave) sum_ += power(spot.badness, kPower);
   }
-  bool operator<(const Badness& other) const { return sum_ < other.sum_; }
+  bool operator<(const Badness& other) const {
+    return graves_ != other.graves_ ? graves_ < other.graves_ : sum_ < other.sum_;
+  }
 
  private:
+  int graves_ = 0;
   double sum_ = 0;
 };
 
 /// A trial: what was given up, and the nodes that move again.
 struct Patch {
-  Nodes key;  ///< the spot's nodes
+  Nodes key;                ///< the spot's nodes
+  bool lastResort = false;  ///< stays even when it is no better: nothing else has helped
   Nodes released;
   Nodes region;
   Badness before, after;
 };
-
-bool isBad(const TetQuality& quality) {
-  return quality.aspectRatio > kMaxAspectRatio || quality.minDihedralDeg < kMinDihedralDeg ||
-         quality.maxDihedralDeg > kMaxDihedralDeg;
-}
 
 class LocalRepair {
  public:
@@ -80,7 +90,7 @@ class LocalRepair {
   }
 
   void run(LocalRepairReport& report) {
-    for (; report.rounds < kMaxRounds; ++report.rounds) {
+    for (; report.rounds < (anyGrave() ? kMostRounds : kMaxRounds); ++report.rounds) {
       std::vector<Patch> patches = choosePatches();
       if (patches.empty()) break;
       report.tried += std::ssize(patches);
@@ -90,11 +100,9 @@ class LocalRepair {
 
   /// @throws std::runtime_error when a boundary node is off the surface
   TetMesh mesh() const {
-    const auto unsnapped =
-        std::ranges::count_if(spots_, [](const Spot& spot) { return spot.badness == kInfinity; });
-    if (unsnapped > 0)
+    if (const auto off = nodesOffSurface(); off > 0)
       throw std::runtime_error(
-          std::to_string(unsnapped) +
+          std::to_string(off) +
           " boundary nodes cannot reach the surface without crushing tets; try a smaller edge length");
     Nodes latticeNodes;
     TetMesh mesh = extractMesh(background_, set_.keep(), options_.label, &latticeNodes);
@@ -103,14 +111,23 @@ class LocalRepair {
   }
 
  private:
+  bool anyGrave() const { return std::ranges::any_of(spots_, &Spot::grave); }
+  std::ptrdiff_t nodesOffSurface() const {
+    return std::ranges::count_if(spots_, [](const Spot& spot) { return spot.badness == kInfinity; });
+  }
+
   static std::vector<Spot> spotsOf(const TetMesh& mesh, const Nodes& latticeNodes, const Nodes& unsnapped) {
     std::vector<Spot> spots;
-    for (const std::int32_t n : unsnapped) spots.push_back({{latticeNodes[n]}, kInfinity});
+    for (const std::int32_t n : unsnapped) spots.push_back({{latticeNodes[n]}, kInfinity, true});
     const auto& x = mesh.nodes;
     for (const auto& [a, b, c, d] : mesh.tets) {
       const double measure = goalMeasure(x[d], x[a], x[b], x[c]);
-      if (measure <= 1 || !isBad(tetQuality(x[a], x[b], x[c], x[d]))) continue;
-      spots.push_back({{latticeNodes[a], latticeNodes[b], latticeNodes[c], latticeNodes[d]}, measure});
+      if (measure <= 1) continue;
+      const TetQuality quality = tetQuality(x[a], x[b], x[c], x[d]);
+      if (!kBad.exceededBy(quality)) continue;
+      spots.push_back({{latticeNodes[a], latticeNodes[b], latticeNodes[c], latticeNodes[d]},
+                       measure,
+                       kGrave.exceededBy(quality)});
     }
     return spots;
   }
@@ -124,7 +141,9 @@ class LocalRepair {
       if (isTaken(spot.nodes)) continue;
       Patch patch;
       patch.key = spot.nodes;
-      const Nodes choice = choiceAt(spot, trials_[spot.nodes]);
+      const std::size_t trial = trials_[spot.nodes];
+      patch.lastResort = spot.grave && trial >= kGraveTrials;
+      const Nodes choice = choiceAt(spot, patch.lastResort ? 0 : trial);
       if (choice.empty()) continue;
       patch.released = releaseNodes(set_, choice);
       patch.region = regionAround(patch.released);
@@ -230,7 +249,7 @@ class LocalRepair {
     std::int64_t accepted = 0;
     std::vector<std::uint8_t> better(patches.size());
     for (std::size_t p = 0; p < patches.size(); ++p) {
-      better[p] = patches[p].after < patches[p].before;
+      better[p] = patches[p].after < patches[p].before || patches[p].lastResort;
       accepted += better[p];
       if (better[p] != 0) continue;
       putBack(patches[p]);
@@ -246,9 +265,10 @@ class LocalRepair {
     return accepted;
   }
 
+  /// The patch that moves one of the nodes, or kNone.
   std::int32_t patchAt(const Nodes& nodes) const {
     for (const std::int32_t n : nodes)
-      if (patchOf_[n] != kNone) return patchOf_[n];
+      if (isInner(n)) return patchOf_[n];
     return kNone;
   }
 
