@@ -128,8 +128,12 @@ TetMesh generateTetMesh(const SignedDistance& phi, const GenerateTetMeshOptions&
 
   clock.start("compression", 0.5);
   LocalRepairReport repair;
-  TetMesh mesh = compressAndRepair(background, stars, candidate, phi,
-                                   {.edgeLength = options.edgeLength, .label = options.label}, &repair);
+  const auto tick = [&] {
+    if (options.progress) options.progress("compression", 0.8);
+  };
+  TetMesh mesh =
+      compressAndRepair(background, stars, candidate, phi,
+                        {.edgeLength = options.edgeLength, .label = options.label, .tick = tick}, &repair);
   out.patchesTried = repair.tried;
   out.patchesMended = repair.accepted;
   out.maxBoundaryPhi = maxBoundaryPhi(mesh, phi);

@@ -172,11 +172,15 @@ Enveloped envelopeViolations(KeptSet& set, std::vector<std::int32_t> suspects, i
   }
 }
 
-std::vector<std::int32_t> releaseNodes(KeptSet& set, std::vector<std::int32_t> nodes) {
+std::vector<std::int32_t> releaseNodes(KeptSet& set, std::vector<std::int32_t> nodes, std::size_t most) {
   std::vector<std::int32_t> released;
   while (!nodes.empty()) {
     for (const std::int32_t n : nodes) set.release(n);
     released.insert(released.end(), nodes.begin(), nodes.end());
+    if (released.size() > most) {
+      for (const std::int32_t n : released) set.envelope(n);
+      return {};
+    }
     nodes = chooseNodes(set, neighbourhood(set, nodes),
                         [&](auto violation) { return set.shallowestAt(violation); });
   }

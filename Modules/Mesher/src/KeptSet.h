@@ -114,7 +114,9 @@ Enveloped envelopeViolations(KeptSet& set, std::vector<std::int32_t> suspects, i
 
 /// Releases enveloped nodes, and more of them until the conditions hold again: a set that only shrinks, so
 /// that a compressed mesh which loses the same tets has none inverted.
+/// @param most  where more nodes would have to go (a thin sheet can unravel as a whole), none is released
 /// @return the nodes released, ascending
-std::vector<std::int32_t> releaseNodes(KeptSet& set, std::vector<std::int32_t> nodes);
+std::vector<std::int32_t> releaseNodes(KeptSet& set, std::vector<std::int32_t> nodes,
+                                       std::size_t most = std::numeric_limits<std::size_t>::max());
 
 }  // namespace sinew

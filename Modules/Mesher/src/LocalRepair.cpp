@@ -6,6 +6,7 @@
 #include "sinew/Mesher/MeshQuality.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -25,10 +26,11 @@ struct Limits {
 };
 constexpr Limits kBad{3.5, 25, 140}, kGrave{4.2, 20, 142};
 constexpr int kMaxRounds = 40;
-constexpr int kMostRounds = 400;         // while there are grave spots
-constexpr std::size_t kGraveTrials = 4;  // at a grave spot, before something is given up for good
-constexpr int kPatchRings = 3;           // rings of nodes around what was given up that move again
-constexpr std::size_t kMostChoices = 6;  // nodes that are tried at a spot
+constexpr int kMostRounds = 120;           // while there are grave spots
+constexpr std::size_t kGraveTrials = 4;    // at a grave spot, before something is given up for good
+constexpr int kPatchRings = 3;             // rings of nodes around what was given up that move again
+constexpr std::size_t kMostReleased = 64;  // nodes, in a trial
+constexpr std::size_t kMostChoices = 6;    // nodes that are tried at a spot
 
 using Nodes = std::vector<std::int32_t>;
 
@@ -70,6 +72,11 @@ struct Patch {
   Badness before, after;
 };
 
+void sortUnique(Nodes& nodes) {
+  std::ranges::sort(nodes);
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+}
+
 class LocalRepair {
  public:
   LocalRepair(const LatticeMesh& background, const NodeStars& stars, const Candidate& candidate,
@@ -81,6 +88,7 @@ class LocalRepair {
         set_(background, stars, candidate.enveloped),
         positions_(background.positions),
         patchOf_(background.positions.size(), kNone),
+        nearPatch_(background.positions.size(), 0),
         localOf_(background.positions.size(), kNone) {
     Nodes latticeNodes;
     TetMesh mesh = extractMesh(background, set_.keep(), options.label, &latticeNodes);
@@ -91,6 +99,7 @@ class LocalRepair {
 
   void run(LocalRepairReport& report) {
     for (; report.rounds < (anyGrave() ? kMostRounds : kMaxRounds); ++report.rounds) {
+      if (options_.tick) options_.tick();
       std::vector<Patch> patches = choosePatches();
       if (patches.empty()) break;
       report.tried += std::ssize(patches);
@@ -137,23 +146,34 @@ class LocalRepair {
   std::vector<Patch> choosePatches() {
     std::sort(spots_.begin(), spots_.end());
     std::vector<Patch> patches;
+    Nodes around;  // of the patches chosen so far: a spot here would only give a patch that touches them
     for (const Spot& spot : spots_) {
-      if (isTaken(spot.nodes)) continue;
+      if (std::ranges::any_of(spot.nodes, [&](std::int32_t n) { return nearPatch_[n] != 0; })) continue;
       Patch patch;
       patch.key = spot.nodes;
       const std::size_t trial = trials_[spot.nodes];
       patch.lastResort = spot.grave && trial >= kGraveTrials;
       const Nodes choice = choiceAt(spot, patch.lastResort ? 0 : trial);
       if (choice.empty()) continue;
-      patch.released = releaseNodes(set_, choice);
+      patch.released =
+          patch.lastResort ? releaseNodes(set_, choice) : releaseNodes(set_, choice, kMostReleased);
+      if (patch.released.empty()) {
+        ++trials_[spot.nodes];
+        continue;
+      }
       patch.region = regionAround(patch.released);
       if (isTaken(patch.region)) {
         putBack(patch);
         continue;
       }
       take(patch.region, static_cast<std::int32_t>(patches.size()));
+      for (const std::int32_t n : grown(patch.region, kPatchRings)) {
+        nearPatch_[n] = 1;
+        around.push_back(n);
+      }
       patches.push_back(std::move(patch));
     }
+    for (const std::int32_t n : around) nearPatch_[n] = 0;
     return patches;
   }
 
@@ -202,8 +222,7 @@ class LocalRepair {
       const Nodes choices = near ? envelopedAt(spot) : Nodes{};
       if (!choices.empty()) nodes.push_back(choices.front());
     }
-    std::ranges::sort(nodes);
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    sortUnique(nodes);
     return nodes;
   }
 
@@ -214,19 +233,32 @@ class LocalRepair {
   /// The nodes within a few rings of what was released.
   Nodes regionAround(const Nodes& released) const {
     Nodes region = released;
-    for (int ring = 0; ring <= kPatchRings; ++ring) {
-      const std::size_t before = region.size();
-      for (std::size_t n = 0; n < before; ++n) {
-        for (const std::int32_t t : stars_.of(region[n])) {
-          if (ring > 0 && !set_.isKept(t)) continue;
-          const Tet& tet = background_.tets[t];
-          region.insert(region.end(), tet.begin(), tet.end());
-        }
-      }
-      std::ranges::sort(region);
-      region.erase(std::unique(region.begin(), region.end()), region.end());
+    for (const std::int32_t n : released) addStar(n, false, region);
+    sortUnique(region);
+    return grown(std::move(region), kPatchRings);
+  }
+
+  /// With the nodes of kept tets a few rings further.
+  Nodes grown(Nodes nodes, int rings) const {
+    Nodes front = nodes, next;
+    for (int ring = 0; ring < rings; ++ring) {
+      next.clear();
+      for (const std::int32_t n : front) addStar(n, true, next);
+      sortUnique(next);
+      front.clear();
+      std::ranges::set_difference(next, nodes, std::back_inserter(front));
+      nodes.insert(nodes.end(), front.begin(), front.end());
+      std::ranges::inplace_merge(nodes, nodes.end() - std::ssize(front));
     }
-    return region;
+    return nodes;
+  }
+
+  void addStar(std::int32_t n, bool keptOnly, Nodes& nodes) const {
+    for (const std::int32_t t : stars_.of(n)) {
+      if (keptOnly && !set_.isKept(t)) continue;
+      const Tet& tet = background_.tets[t];
+      nodes.insert(nodes.end(), tet.begin(), tet.end());
+    }
   }
 
   /// Compresses all patches at once and puts back those that are not better.
@@ -292,8 +324,7 @@ class LocalRepair {
         }
       }
     }
-    std::ranges::sort(tets);
-    tets.erase(std::unique(tets.begin(), tets.end()), tets.end());
+    sortUnique(tets);
 
     TetMesh mesh;
     for (const std::int32_t t : tets) {
@@ -321,6 +352,7 @@ class LocalRepair {
   KeptSet set_;
   std::vector<Eigen::Vector3d> positions_;  ///< of the lattice nodes, as compressed so far
   Nodes patchOf_;                           ///< lattice node -> patch of the present round, or kNone
+  std::vector<std::uint8_t> nearPatch_;     ///< scratch of choosePatches
   Nodes localOf_;                           ///< scratch of localMesh
   std::vector<Spot> spots_;
   std::map<Nodes, std::size_t> trials_;  ///< spot -> choices that did not help

@@ -4,11 +4,14 @@
 #include "sinew/Mesher/LatticeMesh.h"
 #include "sinew/Mesher/SignedDistance.h"
 
+#include <functional>
+
 namespace sinew {
 
 struct LocalRepairOptions {
-  double edgeLength = 0;   ///< cube size of the lattice at the surface, mm
-  std::int32_t label = 1;  ///< of the tets
+  double edgeLength = 0;         ///< cube size of the lattice at the surface, mm
+  std::int32_t label = 1;        ///< of the tets
+  std::function<void()> tick{};  ///< called before every round; may throw to stop
 };
 
 /// What the repair did.

@@ -50,9 +50,11 @@ constexpr Rescale kRescale[]{rescale<std::uint8_t>,  rescale<std::int8_t>,   res
 void requirePlausibleSize(const fs::path& file, const ImagePayload& payload) {
   const std::uint64_t stored = storedBytes(payload), wanted = payload.skip + payload.bytes;
   if ((payload.compressed ? stored * kDeflateBestRatio : stored) >= wanted) return;
-  text::refuse(file, "its voxels are truncated: the header promises " + std::to_string(payload.bytes) +
-                         " bytes, only " + std::to_string(stored) + (payload.compressed ? " packed" : "") +
-                         " bytes are there; export the segmentation again");
+  text::refuse(file,
+               "its voxels are truncated: the header promises " + std::to_string(payload.bytes) +
+                   " bytes, only " +
+                   std::to_string(payload.compressed ? stored : stored - std::min(stored, payload.skip)) +
+                   (payload.compressed ? " packed" : "") + " bytes are there; export the segmentation again");
 }
 
 std::vector<std::int32_t> readPayload(const fs::path& file, const ImageGeometry& geometry,

@@ -34,7 +34,9 @@ class UnpackStream {
   bool endsWell();
 
  private:
+  bool beginMember();
   bool refill();
+  void topUp();
   bool inflateSome();
 
   std::ifstream in_;
@@ -42,6 +44,7 @@ class UnpackStream {
   std::unique_ptr<inflate_state> stream_;  ///< empty when nothing is compressed
   unsigned wrapper_ = 0;                   ///< gzip's or zlib's, as ISA-L names them
   bool ended_ = false;                     ///< behind the checksum of a member
+  bool damaged_ = false;                   ///< for good
 };
 
 }  // namespace sinew

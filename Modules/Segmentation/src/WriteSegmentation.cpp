@@ -1,8 +1,8 @@
 #include "sinew/Segmentation/WriteSegmentation.h"
 
+#include "GzipWriter.h"
 #include "SlicerKeys.h"
 #include "Text.h"
-#include "GzipWriter.h"
 
 #include <algorithm>
 #include <array>

@@ -57,6 +57,11 @@ struct BadFile {
   const char* expected;  ///< a part of the message
 };
 
+std::string flippedAt(std::string bytes, std::size_t at) {
+  bytes[at] = static_cast<char>(bytes[at] ^ 1);
+  return bytes;
+}
+
 std::vector<BadFile> badFiles() {
   const std::string raw = smallBytes();
   std::string flipped = test::gzip(raw);
@@ -93,6 +98,14 @@ std::vector<BadFile> badFiles() {
       {"NIfTI truncated", "a.nii", without(test::nifti({}, raw), 2), "truncated"},
       {"NIfTI gzip truncated", "a.nii.gz", without(gzipNifti, 20), "truncated"},
       {"NIfTI gzip without checksum", "a.nii.gz", without(gzipNifti, 4), "checksum"},
+      {"NIfTI gzip with a wrong checksum", "a.nii.gz", flippedAt(gzipNifti, gzipNifti.size() - 8),
+       "header cannot be read"},
+      {"NIfTI gzip with a wrong length", "a.nii.gz", flippedAt(gzipNifti, gzipNifti.size() - 4),
+       "header cannot be read"},
+      {"NRRD gzip with a wrong checksum", "a.nrrd",
+       test::nrrd({.encoding = "gzip"}, flippedAt(test::gzip(raw), test::gzip(raw).size() - 8)), "damaged"},
+      {"MetaImage zlib with a wrong checksum", "a.mha",
+       test::meta({.compressed = "True"}, flippedAt(test::zlib(raw), test::zlib(raw).size() - 1)), "damaged"},
       {"NIfTI header truncated", "a.nii", test::nifti({}, raw).substr(0, 300), "truncated"},
       {"NIfTI pair", "a.nii", test::nifti({.magic = std::string("ni1\0", 4)}, raw), ".hdr/.img pair"},
       {"NIfTI-2", "a.nii", std::string("\x1C\x02\0\0", 4) + std::string(600, '\0'), "NIfTI-2"},

@@ -378,5 +378,24 @@ TEST_F(ReadRealScans, OverlappingSegmentsOfSlicer) {
   EXPECT_EQ(s.tissues.size(), 8u);
 }
 
+/// A gzip member whose header carries a file name of `length` letters.
+std::string namedMember(const std::string& bytes, std::size_t length) {
+  std::string member = test::gzip(bytes);
+  member[3] = 8;  // FNAME
+  member.insert(10, std::string(length, 'n') + '\0');
+  return member;
+}
+
+TEST(ReadSegmentation, GzipMembersFollowEachOtherWhereverTheirHeadersFall) {
+  const test::TempFolder folder;
+  const std::string raw = test::bytesOf(test::smallLabelsAs<std::int16_t>());
+  std::string packed;
+  for (std::size_t i = 0; i < raw.size(); ++i)  // one byte each; headers of all lengths around 64 KB in all
+    packed += namedMember(raw.substr(i, 1), 6000 + 997 * i % 1000);
+  packed += "what follows is of no concern";
+  test::writeBytes(folder / "a.nrrd", test::nrrd({.encoding = "gzip"}, packed));
+  EXPECT_EQ(readSegmentation(folder / "a.nrrd").layers[0], test::smallLabels());
+}
+
 }  // namespace
 }  // namespace sinew
