@@ -101,7 +101,7 @@ class NearCubes {
 struct Wishes {
   std::vector<std::pair<int, BccTet>> tets;  ///< to be refined, coarse to fine along every branch
   std::int64_t surface = 0;                  ///< tets of the surface level that the surface passes
-  std::int64_t finer = 0;                    ///< those of them that curvature or thickness want finer
+  std::int64_t finer = 0;                    ///< those of them that the rules want finer
   bool mostFiner() const { return static_cast<double>(finer) > kWholesale * static_cast<double>(surface); }
 };
 
@@ -142,7 +142,7 @@ class Refiner {
     return finer;
   }
 
-  /// Curvature and thickness at the point of the surface below the centre of a tet.
+  /// Curvature, tolerance and thickness at the point of the surface below the centre of a tet.
   bool tooCoarse(double cube, const Eigen::Vector3d& centre, double phi) const {
     Eigen::Vector3d gradient;
     phi_.valueAndGradient(centre, gradient);
@@ -154,8 +154,11 @@ class Refiner {
       const double depth = (options_.thickness - kThinDepth) * cube;
       if (phi_.value(foot - depth * normal) > -kThinDepth * cube) return true;
     }
-    return options_.curvature > 0 &&
-           cube * principalCurvatures(phi_, foot, phi_.resolution()).magnitude() > options_.curvature;
+    if (options_.curvature <= 0 && options_.tolerance <= 0) return false;
+    const PrincipalCurvatures curvatures = principalCurvatures(phi_, foot, phi_.resolution());
+    if (options_.curvature > 0 && cube * curvatures.magnitude() > options_.curvature) return true;
+    // An edge of length h leaves the surface by up to h^2 k / 8.
+    return options_.tolerance > 0 && cube * cube * curvatures.largest() > 8 * options_.tolerance;
   }
 
   Eigen::Vector3d centreOf(int level, const BccTet& tet) const {
@@ -181,7 +184,7 @@ LatticePlan planLattice(const SignedDistance& phi, const SizingOptions& options)
   while (std::ldexp(options.edgeLength, -finer - 1) >= options.minEdgeLength * (1 - 1e-9) &&
          finer < kMostFiner)
     ++finer;
-  if (options.curvature <= 0 && options.thickness <= 0) finer = 0;
+  if (options.curvature <= 0 && options.tolerance <= 0 && options.thickness <= 0) finer = 0;
   if (options.levels > 0) {
     coarser = std::min(coarser, options.levels - 1);
     finer = std::min(finer, options.levels - 1 - coarser);

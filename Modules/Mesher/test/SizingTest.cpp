@@ -231,6 +231,23 @@ TEST(Sizing, ASurfaceThatAsksInManyPlacesIsRefinedAsAWhole) {
   EXPECT_EQ(levelsAtTheSurface(large, options), Levels(0, 1));
 }
 
+TEST(Sizing, ToleranceBoundsTheSagOfAnEdge) {
+  // h^2 k / 8 on a sphere of radius 8 mm: 0.0625, 0.0156 and 0.0039 mm for cubes of 2, 1 and 0.5 mm.
+  const test::AnalyticSphere sphere(Vector3d::Zero(), 8, {.resolution = 0.1});
+  SizingOptions options{
+      .edgeLength = 2, .maxEdgeLength = 4, .minEdgeLength = 0.5, .curvature = 0, .thickness = 0};
+  const auto levelsWithin = [&](double tolerance) {
+    options.tolerance = tolerance;
+    return levelsAtTheSurface(sphere, options);
+  };
+  using Levels = std::pair<int, int>;
+  EXPECT_EQ(levelsWithin(0), Levels(0, 0));
+  EXPECT_EQ(levelsWithin(0.07), Levels(0, 0));
+  EXPECT_EQ(levelsWithin(0.05), Levels(1, 1));
+  EXPECT_EQ(levelsWithin(0.01), Levels(2, 2));
+  EXPECT_EQ(levelsWithin(0.0001), Levels(2, 2)) << "minEdgeLength";
+}
+
 TEST(Sizing, LevelsOptionCapsTheRefinement) {
   const test::AnalyticTorus torus(Vector3d::Zero(), 5, 1, {.resolution = 0.1});
   SizingOptions options{.edgeLength = 1, .maxEdgeLength = 2, .minEdgeLength = 0.1};

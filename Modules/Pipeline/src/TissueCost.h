@@ -17,6 +17,9 @@ struct TissueCost {
   double ofVoxels = 0;  ///< the part of `memory` for voxels and level set; it grows with the edge length
 };
 
+/// Area of the smooth surface behind the tissue's voxels, mm^2, roughly. Cost: O(box of the tissue).
+double surfaceArea(const Segmentation& segmentation, const Tissue& tissue);
+
 /// @param levelSet  with the grid spacing that will be taken
 /// Cost: O(box of the tissue).
 TissueCost estimateCost(const Segmentation& segmentation, const Tissue& tissue, const TissueSizes& sizes,

@@ -20,7 +20,12 @@ struct MeshTissuesOptions {
   Length edgeLength = Length::voxels(2);  ///< cube size at the surface, > 0; at most the tissue's extent
   Length maxEdgeLength = 0;               ///< cube size deep inside; 0: eight times the edge length
   std::map<std::string, Length> sizes;  ///< tissue, by a wish as in selectTissues -> its own edge length, > 0
+  Length minEdgeLength = Length::voxels(0.5);  ///< smallest cube that refinement may make; 0: the level set's spacing
   double curvature = 1.0;               ///< see GenerateTetMeshOptions
+  Length tolerance = 0;                 ///< see GenerateTetMeshOptions; 0: off
+  std::int64_t targetTets = 0;  ///< choose the edge length of tissues without one in `sizes` for so many tets; 0: off
+  bool preserveVolume = false;  ///< move the target surface until the mesh has the level set's volume within 0.1 %
+  bool withQuality = false;     ///< write arrays of quality and level set to the files
   int levels = 0;                       ///< see GenerateTetMeshOptions
   LevelSetFromLabelsOptions levelSet;   ///< labels to distance
 };
@@ -45,6 +50,14 @@ struct LostPieces {
   double volume = 0;  ///< mm^3
 };
 
+/// One of the worst tets of a mesh by one measure.
+struct WorstElement {
+  std::string measure;       ///< `aspect_ratio`, `min_dihedral_deg` or `max_dihedral_deg`
+  std::int64_t element = 0;  ///< number of the tet in the file, from 0
+  double value = 0;
+  Eigen::Vector3d place;  ///< its centroid, LPS mm
+};
+
 struct TissueReport {
   std::string name;
   std::int32_t label = 0;
@@ -55,6 +68,7 @@ struct TissueReport {
   double edgeLength = 0;                                ///< as taken for this tissue, mm
   std::vector<std::pair<std::string, double>> seconds;  ///< stage -> wall seconds, in order
   MeshQuality quality;
+  std::vector<WorstElement> worst;  ///< up to kRankedTets of each measure, the worst first
   MeshConditions conditions;
   MeshTopology topology;
   std::int64_t levelSetComponents = 0;
