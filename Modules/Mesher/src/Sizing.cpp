@@ -155,6 +155,8 @@ class Refiner {
       if (phi_.value(foot - depth * normal) > -kThinDepth * cube) return true;
     }
     if (options_.curvature <= 0 && options_.tolerance <= 0) return false;
+    // Smaller cubes than the samples would follow nothing but the corners of the interpolant.
+    if (0.5 * cube < phi_.resolution() * (1 - 1e-9)) return false;
     const PrincipalCurvatures curvatures = principalCurvatures(phi_, foot, phi_.resolution());
     if (options_.curvature > 0 && cube * curvatures.magnitude() > options_.curvature) return true;
     // An edge of length h leaves the surface by up to h^2 k / 8.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sinew {
 namespace {
@@ -18,15 +19,34 @@ Point pointOf(const SizeTrial& trial, std::int64_t wanted) {
   return {std::log(trial.edge), std::log(tets / static_cast<double>(wanted))};
 }
 
-/// Beyond all trials: along the secant through the two best ones, as far as it is plausible.
-double extrapolate(const std::vector<Point>& nearestFirst) {
+/// The nearest neighbours with too many tets and, at the larger edge length, too few. Where the number jumps up
+/// with the edge length, the others lie the wrong way round.
+/// @param points  ascending by edge length
+std::optional<std::pair<Point, Point>> narrowestCrossing(const std::vector<Point>& points) {
+  std::optional<std::pair<Point, Point>> narrowest;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const Point &many = points[i], &few = points[i + 1];
+    if (many.excess <= 0 || few.excess >= 0) continue;
+    const bool narrower =
+        !narrowest || few.edge - many.edge < narrowest->second.edge - narrowest->first.edge;
+    if (narrower) narrowest = {many, few};
+  }
+  return narrowest;
+}
+
+/// Beyond all trials, to the side where the number is still wrong: along the secant, as far as it is plausible.
+/// @param points  ascending by edge length
+double extrapolate(const std::vector<Point>& points) {
   constexpr double kUsualSlope = -2.2, kSteepest = -4, kFlattest = -1.5, kLongestStep = 1.1;
-  const Point& best = nearestFirst.front();
+  const std::size_t last = points.size() - 1;
+  const bool upwards = points[last].excess > 0;
+  const Point& outermost = points[upwards ? last : 0];
   double slope = kUsualSlope;
-  if (nearestFirst.size() > 1 && nearestFirst[1].edge != best.edge)
-    slope = std::clamp((nearestFirst[1].excess - best.excess) / (nearestFirst[1].edge - best.edge), kSteepest,
-                       kFlattest);
-  return best.edge + std::clamp(-best.excess / slope, -kLongestStep, kLongestStep);
+  if (points.size() > 1) {
+    const Point& next = points[upwards ? last - 1 : 1];
+    slope = std::clamp((outermost.excess - next.excess) / (outermost.edge - next.edge), kSteepest, kFlattest);
+  }
+  return outermost.edge + std::clamp(-outermost.excess / slope, -kLongestStep, kLongestStep);
 }
 
 }  // namespace
@@ -57,19 +77,13 @@ std::optional<double> nextEdgeLength(const std::vector<SizeTrial>& trials, std::
   for (const SizeTrial& trial : trials) points.push_back(pointOf(trial, wanted));
   const Point last = points.back();
   const bool stuck = points.size() > 2 && last.excess * points[points.size() - 2].excess > 0;
-  std::ranges::stable_sort(points, {}, [](const Point& point) { return std::abs(point.excess); });
-  const auto many = std::ranges::find_if(points, [](const Point& point) { return point.excess > 0; });
-  const auto few = std::ranges::find_if(points, [](const Point& point) { return point.excess < 0; });
-
-  double edge = 0;
-  if (many == points.end() || few == points.end()) {
-    edge = extrapolate(points);
-  } else {
-    if (std::abs(few->edge - many->edge) < kJump) return std::nullopt;
-    const double part = stuck ? 0.5 : many->excess / (many->excess - few->excess);
-    edge = many->edge + part * (few->edge - many->edge);
-  }
-  return std::exp(edge);
+  std::ranges::sort(points, {}, &Point::edge);
+  const auto crossing = narrowestCrossing(points);
+  if (!crossing) return std::exp(extrapolate(points));
+  const auto& [many, few] = *crossing;
+  if (few.edge - many.edge < kJump) return std::nullopt;
+  const double part = stuck ? 0.5 : many.excess / (many.excess - few.excess);
+  return std::exp(many.edge + part * (few.edge - many.edge));
 }
 
 }  // namespace sinew

@@ -163,7 +163,7 @@ class TissueRun {
     Attempt best;
     std::optional<double> edge = job_.plan.sizes.edge;
     while (edge) {
-      const TissuePlan plan = planTissue(segmentation_, tissue_, *edge, options_);
+      const TissuePlan plan = planTrial(segmentation_, tissue_, *edge, options_);
       const bool tried = std::ranges::count(trials, plan.sizes.edge, &SizeTrial::edge) > 0;
       if (tried) break;  // the tissue allows no larger edge length
       Attempt attempt;
@@ -187,6 +187,7 @@ class TissueRun {
     surface_ = std::move(attempt.surface);
     plan_ = attempt.plan;
     report_.edgeLength = plan_.sizes.edge;
+    report_.minEdgeLength = plan_.sizes.smallest;
     TetMesh best = std::move(attempt.mesh);
     if (best.tets.empty()) return best;
 
@@ -209,7 +210,7 @@ class TissueRun {
     GenerateTetMeshOptions options;
     options.edgeLength = plan.sizes.edge;
     options.maxEdgeLength = plan.sizes.largest;
-    options.minEdgeLength = options_.minEdgeLength.millimetres(voxel);
+    options.minEdgeLength = plan.sizes.smallest;
     options.curvature = options_.curvature;
     options.tolerance = options_.tolerance.millimetres(voxel);
     options.levels = options_.levels;

@@ -95,10 +95,11 @@ TissueJob makeJob(const Segmentation& segmentation, int index, const WantedSize&
   job.tissue = index;
   job.searchSize = options.targetTets > 0 && !wanted.own;
   const double volume = static_cast<double>(tissue.voxels) * segmentation.geometry.voxelVolume();
-  const double edge =
-      job.searchSize ? firstEdgeLength(surfaceArea(segmentation, tissue), volume, options.targetTets)
-                     : wanted.edge;
-  job.plan = planTissue(segmentation, tissue, edge, options);
+  const auto firstTrial = [&] {
+    return firstEdgeLength(surfaceArea(segmentation, tissue), volume, options.targetTets);
+  };
+  job.plan = job.searchSize ? planTrial(segmentation, tissue, firstTrial(), options)
+                            : planTissue(segmentation, tissue, wanted.edge, options);
   job.cost = estimateCost(segmentation, tissue, job.plan.sizes, job.plan.levelSet);
   return job;
 }

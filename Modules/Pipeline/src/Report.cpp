@@ -88,6 +88,7 @@ Json toJsonObject(const TissueReport& report) {
           {"status", toString(report.status)},
           {"message", report.message},
           {"edge_length_mm", report.edgeLength},
+          {"min_edge_length_mm", report.minEdgeLength},
           {"seconds", seconds},
           {"tets", report.quality.tets},
           {"nodes", report.quality.nodes},

@@ -19,7 +19,7 @@ Extent extentOf(const ImageGeometry& geometry, const Tissue& tissue) {
 }
 
 /// A cube larger than the tissue stands for nothing. Who asks for cubes of two voxels or less, as by default,
-/// wants to see specks too: they get three cubes along their mean extent.
+/// wants to see specks too: they get three cubes along their mean extent, and may halve them.
 double fittingEdge(const Extent& extent, double voxel, double wanted) {
   constexpr double kFineVoxels = 2 * (1 + 1e-9), kCubesAlong = 3;
   return std::min(wanted, wanted <= kFineVoxels * voxel ? extent.mean / kCubesAlong : extent.largest);
@@ -54,7 +54,17 @@ TissuePlan planTissue(const Segmentation& segmentation, const Tissue& tissue, do
   plan.sizes.edge = fittingEdge(extent, voxel, edge);
   plan.sizes.largest = std::max(plan.sizes.edge, std::min(largest, extent.largest));
   plan.sizeReduced = plan.sizes.edge < edge;
+  plan.sizes.smallest = options.minEdgeLength.millimetres(voxel);
+  if (plan.sizeReduced) plan.sizes.smallest = std::min(plan.sizes.smallest, plan.sizes.edge / 2);
   plan.levelSet = levelSetOptions(segmentation.geometry, extent.mean, plan.sizes.edge, options);
+  return plan;
+}
+
+TissuePlan planTrial(const Segmentation& segmentation, const Tissue& tissue, double edge,
+                     const MeshTissuesOptions& options) {
+  constexpr double kTwoLevelsDown = 0.25;
+  TissuePlan plan = planTissue(segmentation, tissue, edge, options);
+  plan.sizes.smallest = std::max(plan.sizes.smallest, kTwoLevelsDown * plan.sizes.edge);
   return plan;
 }
 

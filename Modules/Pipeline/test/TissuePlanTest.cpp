@@ -41,6 +41,30 @@ TEST(TissuePlan, NoCubeIsLargerThanTheTissue) {
   EXPECT_TRUE(plan.sizeReduced);
 }
 
+TEST(TissuePlan, RefinementStopsAtTheSmallestCube) {
+  EXPECT_EQ(planOf(2).sizes.smallest, 0.5) << "half a voxel";
+  EXPECT_EQ(planOf(50).sizes.smallest, 0.5);
+  MeshTissuesOptions options;
+  options.minEdgeLength = 1.5;
+  EXPECT_EQ(planOf(2, options).sizes.smallest, 1.5);
+  EXPECT_LT(planOf(50, options).sizes.smallest, 40);
+  const Segmentation segmentation = plate();
+  EXPECT_EQ(planTrial(segmentation, segmentation.tissues[0], 12, options).sizes.smallest, 3);
+  EXPECT_EQ(planTrial(segmentation, segmentation.tissues[0], 2, options).sizes.smallest, 1.5);
+}
+
+TEST(TissuePlan, ASpeckMayBeRefinedOnce) {
+  Segmentation segmentation = plate();
+  std::vector<std::int32_t>& voxels = segmentation.layers[0];
+  std::fill(voxels.begin(), voxels.end(), 0);
+  voxels[44 * 34 * 3 + 44 * 10 + 10] = 1;
+  updateTissueTable(segmentation);
+  const TissuePlan plan = planTissue(segmentation, segmentation.tissues[0], 2, {});
+  EXPECT_TRUE(plan.sizeReduced);
+  EXPECT_DOUBLE_EQ(plan.sizes.edge, 1. / 3);
+  EXPECT_DOUBLE_EQ(plan.sizes.smallest, 1. / 6);
+}
+
 TEST(TissuePlan, TheBandReachesWhereTheMesherLooks) {
   for (const bool preserve : {false, true}) {
     MeshTissuesOptions options;

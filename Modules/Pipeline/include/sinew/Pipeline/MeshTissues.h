@@ -66,6 +66,7 @@ struct TissueReport {
   TissueStatus status = TissueStatus::Failed;
   std::string message;                                  ///< one line: why it was lost or failed, or a warning
   double edgeLength = 0;                                ///< as taken for this tissue, mm
+  double minEdgeLength = 0;                             ///< that refinement might make, mm; 0: the level set's spacing
   std::vector<std::pair<std::string, double>> seconds;  ///< stage -> wall seconds, in order
   MeshQuality quality;
   std::vector<WorstElement> worst;  ///< up to kRankedTets of each measure, the worst first
