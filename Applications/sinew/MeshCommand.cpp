@@ -50,8 +50,9 @@ void addOptions(CommandLine& line, MeshCommand& command) {
       ->type_name("TISSUE=LENGTH")
       ->expected(1)
       ->take_all();
-  app.add_option("--target-tets", meshing.targetTets,
-                 "choose the edge length of each tissue without a --size for so many tets, within 10 %; 0: off")
+  app.add_option(
+         "--target-tets", meshing.targetTets,
+         "choose the edge length of each tissue without a --size for so many tets, within 10 %; 0: off")
       ->check(CommandLine::atLeast(0))
       ->capture_default_str()
       ->excludes(edgeLength);
@@ -120,7 +121,15 @@ TextTable tissueTable(const std::vector<TissueReport>& reports) {
     const std::string seconds = fixed(totalSeconds(report), 1);
     if (report.status != TissueStatus::Meshed) {
       const Tone tone = report.status == TissueStatus::Lost ? Tone::Warning : Tone::Bad;
-      table.add({report.name, {toString(report.status), tone}, fixed(report.edgeLength, 3), "-", "-", "-", "-", "-", seconds});
+      table.add({report.name,
+                 {toString(report.status), tone},
+                 fixed(report.edgeLength, 3),
+                 "-",
+                 "-",
+                 "-",
+                 "-",
+                 "-",
+                 seconds});
       continue;
     }
     const MeshQuality& quality = report.quality;

@@ -274,8 +274,9 @@ TEST_F(VtuFileErrors, LabelsThatDoNotFit) {
   TetMesh mesh = exampleMesh();
   mesh.labels.pop_back();
   EXPECT_THROW(writeVtu(mesh, folder_ / "a.vtu"), std::invalid_argument);
-  const std::string message = messageOf<std::invalid_argument>(
-      [&] { writeVtu(exampleMesh(), folder_ / "a.vtu", {.cells = {}, .points = {{"phi", {1, 2}}}}); });
+  const std::string message = messageOf<std::invalid_argument>([&] {
+    writeVtu(exampleMesh(), folder_ / "a.vtu", {.cells = {}, .points = {{"phi", {1, 2}}}});
+  });
   EXPECT_TRUE(message.starts_with("writeVtu: 2 phi for ")) << message;
   EXPECT_FALSE(fs::exists(folder_ / "a.vtu"));
 }

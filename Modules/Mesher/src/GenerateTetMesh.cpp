@@ -54,8 +54,7 @@ SizingOptions sizingOptions(const SignedDistance& phi, const GenerateTetMeshOpti
   requireThat(options.curvature >= 0, "curvature must not be negative");
   requireThat(options.minEdgeLength >= 0 && std::isfinite(options.minEdgeLength),
               "minEdgeLength must be a length or 0");
-  requireThat(options.tolerance >= 0 && std::isfinite(options.tolerance),
-              "tolerance must be a length or 0");
+  requireThat(options.tolerance >= 0 && std::isfinite(options.tolerance), "tolerance must be a length or 0");
   requireThat(options.levels >= 0, "levels must not be negative");
   requireThat(phi.band() >= kBandEdges * options.edgeLength,
               "phi must be known up to 1.55 edge lengths from its surface");

@@ -158,11 +158,13 @@ TEST(MeshQuality, RanksLikeAStableSortOfAllTets) {
   for (std::size_t n = 0; n < mesh.nodes.size() / 2; ++n)
     for (double& x : mesh.nodes[n]) x += 0.1 * double(random()) / 4294967296.0;
   const MeshQuality q = meshQuality(mesh);
-  const auto expectRanking = [&](const std::vector<RankedTet>& found, double TetQuality::*measure, double sign) {
+  const auto expectRanking = [&](const std::vector<RankedTet>& found, double TetQuality::*measure,
+                                 double sign) {
     std::vector<RankedTet> all;
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
       const auto& [a, b, c, d] = mesh.tets[t];
-      all.push_back({std::int64_t(t), tetQuality(mesh.nodes[a], mesh.nodes[b], mesh.nodes[c], mesh.nodes[d]).*measure});
+      all.push_back(
+          {std::int64_t(t), tetQuality(mesh.nodes[a], mesh.nodes[b], mesh.nodes[c], mesh.nodes[d]).*measure});
     }
     std::stable_sort(all.begin(), all.end(),
                      [&](const RankedTet& l, const RankedTet& r) { return sign * l.value > sign * r.value; });

@@ -15,7 +15,8 @@ TEST(QualityHistogram, OfTheLatticeIsTwoAnglesAndOneAspectRatio) {
   const QualityHistogram histogram = qualityHistogram(mesh);
   const auto tets = static_cast<std::int64_t>(mesh.tets.size());
   const auto sum = [&](std::size_t first, std::size_t last) {
-    return std::accumulate(histogram.dihedrals.begin() + first, histogram.dihedrals.begin() + last, std::int64_t{0});
+    return std::accumulate(histogram.dihedrals.begin() + first, histogram.dihedrals.begin() + last,
+                           std::int64_t{0});
   };
   // A BCC tet has four angles of 60 degrees and two of 90.
   EXPECT_EQ(sum(5, 7), 4 * tets);

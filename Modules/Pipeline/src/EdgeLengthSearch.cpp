@@ -19,22 +19,22 @@ Point pointOf(const SizeTrial& trial, std::int64_t wanted) {
   return {std::log(trial.edge), std::log(tets / static_cast<double>(wanted))};
 }
 
-/// The nearest neighbours with too many tets and, at the larger edge length, too few. Where the number jumps up
-/// with the edge length, the others lie the wrong way round.
+/// The nearest neighbours with too many tets and, at the larger edge length, too few. Where the number jumps
+/// up with the edge length, the others lie the wrong way round.
 /// @param points  ascending by edge length
 std::optional<std::pair<Point, Point>> narrowestCrossing(const std::vector<Point>& points) {
   std::optional<std::pair<Point, Point>> narrowest;
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     const Point &many = points[i], &few = points[i + 1];
     if (many.excess <= 0 || few.excess >= 0) continue;
-    const bool narrower =
-        !narrowest || few.edge - many.edge < narrowest->second.edge - narrowest->first.edge;
+    const bool narrower = !narrowest || few.edge - many.edge < narrowest->second.edge - narrowest->first.edge;
     if (narrower) narrowest = {many, few};
   }
   return narrowest;
 }
 
-/// Beyond all trials, to the side where the number is still wrong: along the secant, as far as it is plausible.
+/// Beyond all trials, to the side where the number is still wrong: along the secant, as far as it is
+/// plausible.
 /// @param points  ascending by edge length
 double extrapolate(const std::vector<Point>& points) {
   constexpr double kUsualSlope = -2.2, kSteepest = -4, kFlattest = -1.5, kLongestStep = 1.1;

@@ -25,10 +25,11 @@ std::size_t bestTrial(const std::vector<SizeTrial>& trials, std::int64_t wanted)
 /// @param area, volume  of the tissue, mm^2 and mm^3
 double firstEdgeLength(double area, double volume, std::int64_t wanted);
 
-/// Edge length to try next: regula falsi in log(tets) over log(edge), halving where it sticks; beyond the trials
-/// along their secant.
+/// Edge length to try next: regula falsi in log(tets) over log(edge), halving where it sticks; beyond the
+/// trials along their secant.
 /// @param trials  at least one
-/// @return nothing when the best trial is good, the trials are used up, or the number jumps over the wanted one
+/// @return nothing when the best trial is good, the trials are used up, or the number jumps over the wanted
+/// one
 std::optional<double> nextEdgeLength(const std::vector<SizeTrial>& trials, std::int64_t wanted);
 
 }  // namespace sinew

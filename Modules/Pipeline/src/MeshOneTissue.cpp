@@ -111,8 +111,7 @@ class TissueRun {
  private:
   /// The mesh in LPS; leaves the level set behind for measure().
   TetMesh generate() {
-    Attempt attempt =
-        job_.searchSize ? searchEdgeLength() : attemptWith(job_.plan, kAfterMesh);
+    Attempt attempt = job_.searchSize ? searchEdgeLength() : attemptWith(job_.plan, kAfterMesh);
     TetMesh mesh = keepVolume(std::move(attempt));
     watch_.lap();
     for (Eigen::Vector3d& node : mesh.nodes) node = frame_ * node;
@@ -134,8 +133,7 @@ class TissueRun {
     attempt.plan = plan;
     advance("level set", done_);
     {
-      const LevelSet levelSet =
-          levelSetFromLabels(segmentation_, tissue_, plan.levelSet, &attempt.volumes);
+      const LevelSet levelSet = levelSetFromLabels(segmentation_, tissue_, plan.levelSet, &attempt.volumes);
       attempt.frame = levelSet.frame;
       attempt.surface = std::make_unique<LevelSetSurface>(levelSet);
     }
@@ -252,9 +250,10 @@ class TissueRun {
     report_.lost.components =
         static_cast<std::int64_t>(labelComponents(segmentation_, tissue_).voxels.size());
     report_.lost.volume = volumes_.labelVolume;
-    report_.message = "too small for the lattice: " + std::to_string(tissue_.voxels) + " voxels, " +
-                      number(volumes_.labelVolume) + " mm^3, at edge length " + number(plan_.sizes.edge) + " mm; try " +
-                      sizeOption(tissue_.name, std::min(plan_.sizes.edge / 2, std::cbrt(volumes_.labelVolume) / 3));
+    report_.message =
+        "too small for the lattice: " + std::to_string(tissue_.voxels) + " voxels, " +
+        number(volumes_.labelVolume) + " mm^3, at edge length " + number(plan_.sizes.edge) + " mm; try " +
+        sizeOption(tissue_.name, std::min(plan_.sizes.edge / 2, std::cbrt(volumes_.labelVolume) / 3));
   }
 
   std::string warning() const {
@@ -275,10 +274,9 @@ class TissueRun {
   std::string volumeWarning() const {
     constexpr double kLargeSmoothingError = 0.2;
     const Fidelity& fidelity = report_.fidelity;
-    if (options_.preserveVolume &&
-        std::abs(fidelity.volume / fidelity.levelSetVolume - 1) > kExactVolume.tolerance)
-      return "the volume is " + number(100 * (fidelity.volume / fidelity.levelSetVolume - 1)) +
-             " % off, at the largest offset or number of meshings allowed";
+    const double error = std::abs(fidelity.volume / fidelity.levelSetVolume - 1);
+    if (options_.preserveVolume && error > kExactVolume.tolerance)
+      return "the volume could only be brought within " + number(100 * error) + " %";
     if (std::abs(fidelity.levelSetVolume / fidelity.labelVolume - 1) > kLargeSmoothingError)
       return "volume is " + number(100 * fidelity.volume / fidelity.labelVolume) +
              " % of the label's; a smaller --smoothing may help";

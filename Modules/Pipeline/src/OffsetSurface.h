@@ -7,7 +7,8 @@
 
 namespace sinew {
 
-/// The shape grown by `offset` on all sides, or shrunk where that is negative: phi - offset. The base must outlive it.
+/// The shape grown by `offset` on all sides, or shrunk where that is negative: phi - offset. The base must
+/// outlive it.
 class OffsetSurface final : public SignedDistance {
  public:
   /// @param offset  mm, well below the base's band

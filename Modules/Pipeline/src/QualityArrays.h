@@ -5,8 +5,8 @@
 
 namespace sinew {
 
-/// For every tet `aspect_ratio`, `min_dihedral_deg` and `max_dihedral_deg`, for every node `phi`, the level set
-/// there, mm.
+/// For every tet `aspect_ratio`, `min_dihedral_deg` and `max_dihedral_deg`, for every node `phi`, the level
+/// set there, mm.
 /// @param mesh     in LPS mm
 /// @param surface  in its own frame
 /// @param frame    leads from that frame to LPS

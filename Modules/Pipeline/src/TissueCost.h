@@ -6,8 +6,8 @@
 namespace sinew {
 
 struct TissueSizes {
-  double edge = 0;     ///< cube size at the surface, mm
-  double largest = 0;  ///< deep inside, mm
+  double edge = 0;      ///< cube size at the surface, mm
+  double largest = 0;   ///< deep inside, mm
   double smallest = 0;  ///< that refinement may make, mm; 0: the level set's spacing
 };
 

@@ -35,8 +35,8 @@ LevelSetFromLabelsOptions levelSetOptions(const ImageGeometry& geometry, double 
   const double voxel = defaultGridSpacing(geometry);
   LevelSetFromLabelsOptions options = meshing.levelSet;
   if (options.gridSpacing <= 0)
-    options.gridSpacing = std::max(
-        {edge / kSamplesPerEdge, kFinestSpeck * voxel, std::min(voxel, meanExtent / kSamplesAlong)});
+    options.gridSpacing =
+        std::max({edge / kSamplesPerEdge, kFinestSpeck * voxel, std::min(voxel, meanExtent / kSamplesAlong)});
   options.bandVoxels = std::max(options.bandVoxels, bandEdges * edge / options.gridSpacing);
   return options;
 }

@@ -16,8 +16,8 @@ struct TissuePlan {
 TissuePlan planTissue(const Segmentation& segmentation, const Tissue& tissue, double edge,
                       const MeshTissuesOptions& options);
 
-/// The same for one of the edge lengths that a search tries: refinement goes two levels down at most, so that the
-/// number of tets follows the edge length.
+/// The same for one of the edge lengths that a search tries: refinement goes two levels down at most, so that
+/// the number of tets follows the edge length.
 TissuePlan planTrial(const Segmentation& segmentation, const Tissue& tissue, double edge,
                      const MeshTissuesOptions& options);
 

@@ -58,8 +58,7 @@ std::string underResolution(const TissueReport& report) {
   const double error = report.fidelity.volume / report.fidelity.levelSetVolume - 1;
   if (std::abs(error) > kVolumeError)
     add("volume " + number(100 * std::abs(error)) + " % too " + (error < 0 ? "small" : "large"));
-  return signs.empty() ? ""
-                       : "under-resolved: " + signs + "; try " + sizeOption(report.name, edge);
+  return signs.empty() ? "" : "under-resolved: " + signs + "; try " + sizeOption(report.name, edge);
 }
 
 }  // namespace sinew

@@ -31,8 +31,8 @@ std::optional<double> nextOffset(const std::vector<OffsetTrial>& trials, double 
   const double largest = rule.largestEdges * edge;
   const double offset = trials.back().offset + (wantedVolume - trials.back().volume) / growth(trials, area);
   const double allowed = std::clamp(offset, rule.inwards ? -largest : 0, largest);
-  const bool tried = std::ranges::any_of(
-      trials, [&](const OffsetTrial& trial) { return trial.offset == allowed; });
+  const bool tried =
+      std::ranges::any_of(trials, [&](const OffsetTrial& trial) { return trial.offset == allowed; });
   return tried ? std::nullopt : std::optional(allowed);
 }
 

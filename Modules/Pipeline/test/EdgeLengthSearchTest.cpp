@@ -18,8 +18,8 @@ std::vector<SizeTrial> search(const Mesher& tets, double firstEdge, std::int64_t
   return trials;
 }
 
-/// 30 tets per square of the surface of a ball of radius r and 12 / 512 per cube of its volume, as with cubes of up to
-/// eight edge lengths inside.
+/// 30 tets per square of the surface of a ball of radius r and 12 / 512 per cube of its volume, as with cubes
+/// of up to eight edge lengths inside.
 double ballTets(double r, double edge) {
   return 30 * 4 * M_PI * std::pow(r / edge, 2) + 12. / 512 * 4 * M_PI / 3 * std::pow(r / edge, 3);
 }

@@ -1,5 +1,4 @@
 #include "QualityArrays.h"
-
 #include "sinew/Mesher/MeshQuality.h"
 #include "sinew/TestSupport/AnalyticDistance.h"
 #include "sinew/TestSupport/LatticeMesh.h"

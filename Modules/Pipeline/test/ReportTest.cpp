@@ -48,10 +48,10 @@ TEST(Report, HasTheFieldsThatReadersExpect) {
             (std::vector<std::string>{"input", "machine", "options", "peak_memory_bytes", "program",
                                       "threads", "tissues", "total_seconds", "version"}));
   const Json& tissue = json["tissues"][0];
-  EXPECT_EQ(keys(tissue), (std::vector<std::string>{"conditions", "edge_length_mm", "fidelity", "file",
-                                                    "label", "layer", "lost", "message",
-                                                    "min_edge_length_mm", "name", "nodes", "quality",
-                                                    "seconds", "status", "tets", "topology", "worst"}));
+  EXPECT_EQ(keys(tissue),
+            (std::vector<std::string>{"conditions", "edge_length_mm", "fidelity", "file", "label", "layer",
+                                      "lost", "message", "min_edge_length_mm", "name", "nodes", "quality",
+                                      "seconds", "status", "tets", "topology", "worst"}));
   EXPECT_EQ(keys(tissue["quality"]),
             (std::vector<std::string>{"inverted", "max_aspect_ratio", "max_dihedral_deg", "max_over_min_edge",
                                       "mean_aspect_ratio", "min_dihedral_deg"}));

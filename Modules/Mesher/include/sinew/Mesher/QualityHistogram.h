@@ -15,7 +15,7 @@ inline constexpr std::array<double, 14> kAspectRatioBins{1,    1.25, 1.5, 1.75, 
 
 /// How the quality of a mesh is spread.
 struct QualityHistogram {
-  std::array<std::int64_t, kDihedralBins> dihedrals{};                ///< six of each tet; 180 in the last bin
+  std::array<std::int64_t, kDihedralBins> dihedrals{};               ///< six of each tet; 180 in the last bin
   std::array<std::int64_t, kAspectRatioBins.size()> aspectRatios{};  ///< one of each tet
 };
 /// Cost: O(tets).

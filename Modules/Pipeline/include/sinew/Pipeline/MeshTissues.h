@@ -20,14 +20,17 @@ struct MeshTissuesOptions {
   Length edgeLength = Length::voxels(2);  ///< cube size at the surface, > 0; at most the tissue's extent
   Length maxEdgeLength = 0;               ///< cube size deep inside; 0: eight times the edge length
   std::map<std::string, Length> sizes;  ///< tissue, by a wish as in selectTissues -> its own edge length, > 0
-  Length minEdgeLength = Length::voxels(0.5);  ///< smallest cube that refinement may make; 0: the level set's spacing
-  double curvature = 1.0;               ///< see GenerateTetMeshOptions
-  Length tolerance = 0;                 ///< see GenerateTetMeshOptions; 0: off
-  std::int64_t targetTets = 0;  ///< choose the edge length of tissues without one in `sizes` for so many tets; 0: off
-  bool preserveVolume = false;  ///< move the target surface until the mesh has the level set's volume within 0.1 %
-  bool withQuality = false;     ///< write arrays of quality and level set to the files
-  int levels = 0;                       ///< see GenerateTetMeshOptions
-  LevelSetFromLabelsOptions levelSet;   ///< labels to distance
+  Length minEdgeLength =
+      Length::voxels(0.5);  ///< smallest cube that refinement may make; 0: the level set's spacing
+  double curvature = 1.0;   ///< see GenerateTetMeshOptions
+  Length tolerance = 0;     ///< see GenerateTetMeshOptions; 0: off
+  std::int64_t targetTets =
+      0;  ///< choose the edge length of tissues without one in `sizes` for so many tets; 0: off
+  bool preserveVolume =
+      false;  ///< move the target surface until the mesh has the level set's volume within 0.1 %
+  bool withQuality = false;            ///< write arrays of quality and level set to the files
+  int levels = 0;                      ///< see GenerateTetMeshOptions
+  LevelSetFromLabelsOptions levelSet;  ///< labels to distance
 };
 
 enum class TissueStatus { Meshed, Lost, Failed };
@@ -64,9 +67,9 @@ struct TissueReport {
   int layer = 0;
   std::string file;  ///< name inside the output folder; empty when nothing was written
   TissueStatus status = TissueStatus::Failed;
-  std::string message;                                  ///< one line: why it was lost or failed, or a warning
-  double edgeLength = 0;                                ///< as taken for this tissue, mm
-  double minEdgeLength = 0;                             ///< that refinement might make, mm; 0: the level set's spacing
+  std::string message;       ///< one line: why it was lost or failed, or a warning
+  double edgeLength = 0;     ///< as taken for this tissue, mm
+  double minEdgeLength = 0;  ///< that refinement might make, mm; 0: the level set's spacing
   std::vector<std::pair<std::string, double>> seconds;  ///< stage -> wall seconds, in order
   MeshQuality quality;
   std::vector<WorstElement> worst;  ///< up to kRankedTets of each measure, the worst first
