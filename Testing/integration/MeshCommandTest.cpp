@@ -152,15 +152,15 @@ TEST(MeshCommand, ToleranceAndSmallestCubeDriveTheRefinement) {
     EXPECT_EQ(run(arguments).exitCode, 0);
     return reportIn(folder)["tissues"][0];
   };
-  // On the radius of 20 mm the bound h^2 / (8 * 20 mm) is 0.1 mm for cubes of 4 mm and 0.025 mm for those of
-  // 2 mm.
-  const Json plain = tissueWith({}), fine = tissueWith({"--tolerance", "0.05"}),
-             capped = tissueWith({"--tolerance", "0.05", "--min-edge-length", "4"});
-  EXPECT_EQ(tissueWith({"--tolerance", "0.2"})["tets"], plain["tets"]);
+  // On the radius of 20 mm the bound h^2 / (8 * 20 mm) is 0.1 mm for cubes of 4 mm; the terraces of the
+  // voxels, which the smoothing leaves, come on top.
+  const Json plain = tissueWith({}), fine = tissueWith({"--tolerance", "0.1"}),
+             capped = tissueWith({"--tolerance", "0.1", "--min-edge-length", "4"});
+  EXPECT_EQ(tissueWith({"--tolerance", "0.5"})["tets"], plain["tets"]);
   EXPECT_GT(fine["tets"], 3 * plain["tets"].get<int>());
   EXPECT_EQ(capped["tets"], plain["tets"]);
-  EXPECT_LT(fine["fidelity"]["surface_max_mm"], 0.05);
-  EXPECT_GT(plain["fidelity"]["surface_max_mm"], 0.05);
+  EXPECT_LT(fine["fidelity"]["surface_max_mm"], 0.1);
+  EXPECT_GT(plain["fidelity"]["surface_max_mm"], 0.1);
 }
 
 TEST(MeshCommand, TheVolumeMayBePreserved) {

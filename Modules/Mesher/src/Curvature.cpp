@@ -2,14 +2,11 @@
 
 #include <Eigen/Geometry>
 
-#include <algorithm>
 #include <cmath>
 
 namespace sinew {
 
 double PrincipalCurvatures::magnitude() const { return std::abs(k1) + std::abs(k2); }
-
-double PrincipalCurvatures::largest() const { return std::max(std::abs(k1), std::abs(k2)); }
 
 PrincipalCurvatures principalCurvatures(const SignedDistance& phi, const Eigen::Vector3d& x, double step) {
   Eigen::Matrix3d hessian;

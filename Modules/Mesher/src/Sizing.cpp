@@ -157,10 +157,23 @@ class Refiner {
     if (options_.curvature <= 0 && options_.tolerance <= 0) return false;
     // Smaller cubes than the samples would follow nothing but the corners of the interpolant.
     if (0.5 * cube < phi_.resolution() * (1 - 1e-9)) return false;
-    const PrincipalCurvatures curvatures = principalCurvatures(phi_, foot, phi_.resolution());
-    if (options_.curvature > 0 && cube * curvatures.magnitude() > options_.curvature) return true;
-    // An edge of length h leaves the surface by up to h^2 k / 8.
-    return options_.tolerance > 0 && cube * cube * curvatures.largest() > 8 * options_.tolerance;
+    if (options_.curvature > 0 &&
+        cube * principalCurvatures(phi_, foot, phi_.resolution()).magnitude() > options_.curvature)
+      return true;
+    return options_.tolerance > 0 && sag(cube, foot, normal) > options_.tolerance;
+  }
+
+  /// How far an edge of length h leaves the surface, h^2 k / 8 for the larger principal curvature k: half the
+  /// second difference of phi over the edge in the tangent plane. Ripples that are shorter add their height
+  /// only.
+  double sag(double h, const Eigen::Vector3d& foot, const Eigen::Vector3d& normal) const {
+    const Eigen::Vector3d u = normal.unitOrthogonal(), v = normal.cross(u);
+    const double phi = phi_.value(foot);
+    const auto along = [&](const Eigen::Vector3d& t) {
+      return (phi_.value(foot + 0.5 * h * t) + phi_.value(foot - 0.5 * h * t)) / 2 - phi;
+    };
+    const double a = along(u), c = along(v), b = along((u + v) * std::sqrt(0.5)) - (a + c) / 2;
+    return std::abs(a + c) / 2 + std::hypot((a - c) / 2, b);
   }
 
   Eigen::Vector3d centreOf(int level, const BccTet& tet) const {

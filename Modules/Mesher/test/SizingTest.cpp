@@ -220,6 +220,24 @@ TEST(Sizing, ThinWallsAreRefinedUntilTheyHoldEnoughCubes) {
   EXPECT_EQ(levelsAtTheSurface(shell(0.5), options), Levels(0, 0));
 }
 
+TEST(Sizing, OnlyThicknessGoesBelowTheResolution) {
+  const SizingOptions strict{.edgeLength = 1,
+                             .maxEdgeLength = 4,
+                             .minEdgeLength = 0.25,
+                             .curvature = 0.01,
+                             .tolerance = 1e-6,
+                             .thickness = 0};
+  using Levels = std::pair<int, int>;
+  const test::AnalyticSphere ball(Vector3d::Zero(), 4, {.resolution = 0.5});
+  EXPECT_EQ(levelsAtTheSurface(ball, strict), Levels(1, 1));
+  const test::AnalyticDifference shell(std::make_shared<test::AnalyticSphere>(Vector3d::Zero(), 4.4),
+                                       std::make_shared<test::AnalyticSphere>(Vector3d::Zero(), 4),
+                                       AnalyticOptions{.resolution = 0.5});
+  SizingOptions thin = strict;
+  thin.thickness = 1.6;
+  EXPECT_EQ(levelsAtTheSurface(shell, thin), Levels(2, 2));
+}
+
 TEST(Sizing, ASurfaceThatAsksInManyPlacesIsRefinedAsAWhole) {
   // Edges and corners take up most of a small box, little of a large one.
   const SizingOptions options{

@@ -194,23 +194,26 @@ TEST(MeshTissues, TheVolumeIsPreservedWithinATenthOfAPercent) {
 
 TEST(MeshTissues, AVolumeOutOfReachIsTold) {
   MeshTissuesOptions options = coarse();
-  options.edgeLength = 10;  // on a radius of 6.5 mm: chords cut off more than a tenth of an edge gives back
+  options.edgeLength = 1.5 * kBallRadius;  // chords cut off more than a tenth of an edge gives back
   options.preserveVolume = true;
-  const TissueReport report = reportsOf({1}, options).front();
-  EXPECT_DOUBLE_EQ(report.fidelity.surfaceOffset, 0.1 * 10);
+  const TissueReport report = reportsOf({0}, options).front();
+  EXPECT_DOUBLE_EQ(report.fidelity.surfaceOffset, 0.1 * 1.5 * kBallRadius);
   EXPECT_NE(report.message.find("the volume could only be brought within "), std::string::npos)
       << report.message;
 }
 
 TEST(MeshTissues, AnUnderResolvedTissueIsToldASizeThatHelps) {
   MeshTissuesOptions options = coarse();
-  options.edgeLength = 10;
-  const TissueReport report = reportsOf({1}, options).front();
+  options.edgeLength = kBallRadius;
+  const TissueReport report = reportsOf({0}, options).front();
   ASSERT_TRUE(report.message.starts_with("under-resolved: volume ")) << report.message;
-  ASSERT_TRUE(report.message.ends_with("; try --size 'small ball=5mm'")) << report.message;
-  options.sizes["small ball"] = 5;
-  EXPECT_EQ(reportsOf({1}, options).front().message, "");
-  EXPECT_TRUE(reportsOf({2}, options).front().message.ends_with("; try --size 'thread=0.71mm'"));
+  ASSERT_TRUE(report.message.ends_with("; try --size 'ball=4.7mm'")) << report.message;
+  options.sizes["ball"] = 4.7;
+  EXPECT_EQ(reportsOf({0}, options).front().message, "");
+  const std::string lost = reportsOf({2}, options).front().message;
+  ASSERT_TRUE(lost.ends_with("; try --size 'thread=0.71mm'")) << lost;
+  options.sizes["thread"] = 0.71;
+  EXPECT_EQ(reportsOf({2}, options).front().status, TissueStatus::Meshed);
 }
 
 TEST(MeshTissues, QualityGoesIntoTheFileOnRequest) {

@@ -11,8 +11,6 @@ struct PrincipalCurvatures {
   double k2 = 0;
   /// |k1| + |k2|: unlike the mean curvature it does not cancel at saddles.
   double magnitude() const;
-  /// max(|k1|, |k2|): an edge of length h leaves the surface by up to h^2 largest() / 8.
-  double largest() const;
 };
 
 /// Eigenvalues of P H P / |grad phi| with H the Hessian and P = I - N N^T, the one along N dropped
