@@ -1,7 +1,7 @@
 #include "sinew/Mesher/GenerateTetMesh.h"
 
+#include "LocalRepair.h"
 #include "NodeStarEnergy.h"
-#include "RetreatingCompression.h"
 #include "sinew/Mesher/Candidate.h"
 #include "sinew/Mesher/LatticeMesh.h"
 #include "sinew/Mesher/Sizing.h"
@@ -123,7 +123,7 @@ TetMesh generateTetMesh(const SignedDistance& phi, const GenerateTetMeshOptions&
 
   clock.start("candidate", 0.3);
   const NodeStars stars = nodeStars(background.positions.size(), background.tets);
-  Candidate candidate = selectCandidate(background, stars);
+  const Candidate candidate = selectCandidate(background, stars);
   out.repairPasses = candidate.passes;
   out.repairCapReached = candidate.violations > 0;
   if (out.repairCapReached) {
@@ -132,9 +132,11 @@ TetMesh generateTetMesh(const SignedDistance& phi, const GenerateTetMeshOptions&
   }
 
   clock.start("compression", 0.5);
-  TetMesh mesh =
-      compressWithRetreats(background, stars, candidate, phi,
-                           {.edgeLength = options.edgeLength, .label = options.label}, out.retreats);
+  LocalRepairReport repair;
+  TetMesh mesh = compressAndRepair(background, stars, candidate, phi,
+                                   {.edgeLength = options.edgeLength, .label = options.label}, &repair);
+  out.patchesTried = repair.tried;
+  out.patchesMended = repair.accepted;
   out.maxBoundaryPhi = maxBoundaryPhi(mesh, phi);
   clock.stop();
   if (options.progress) options.progress("compression", 1);

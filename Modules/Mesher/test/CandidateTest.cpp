@@ -1,3 +1,4 @@
+#include "Background.h"
 #include "RandomShapes.h"
 #include "sinew/Mesher/Candidate.h"
 #include "sinew/Mesher/MeshConditions.h"
@@ -17,22 +18,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-struct Background {
-  LatticeMesh mesh;
-  NodeStars stars;
-};
-
-Background backgroundOf(const SignedDistance& phi, double edgeLength) {
-  const SizingOptions options{.edgeLength = edgeLength,
-                              .maxEdgeLength = 8 * edgeLength,
-                              .minEdgeLength = std::min(phi.resolution(), edgeLength)};
-  LatticePlan plan = planLattice(phi, options);
-  RedGreenLattice lattice(plan.coarseCells, plan.levels);
-  refineToSize(lattice, plan, phi, options);
-  Background b{latticeMesh(lattice, plan, phi), {}};
-  b.stars = nodeStars(b.mesh.positions.size(), b.mesh.tets);
-  return b;
-}
+using test::Background;
+using test::backgroundOf;
 
 /// Whether the kept tets are exactly those with an enveloped node.
 bool keepsTheStarsOfEnvelopedNodes(const LatticeMesh& mesh, const Candidate& candidate) {
@@ -216,56 +203,6 @@ TEST(Candidate, OfNothingIsEmpty) {
   const Candidate candidate = selectCandidate(b.mesh, b.stars);
   EXPECT_EQ(std::ranges::count(candidate.keep, 1), 0);
   EXPECT_TRUE(extractMesh(b.mesh, candidate.keep, 1).tets.empty());
-}
-
-/// Random nodes and random tets of the present candidate.
-std::vector<Trouble> randomTroubles(const LatticeMesh& mesh, const Candidate& candidate,
-                                    std::mt19937& random) {
-  std::vector<std::size_t> kept;
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t)
-    if (candidate.keep[t]) kept.push_back(t);
-  std::vector<Trouble> troubles;
-  for (int k = 0; k < 4 && !kept.empty(); ++k) {
-    const Tet& tet = mesh.tets[kept[random() % kept.size()]];
-    troubles.push_back(k % 2 == 0 ? Trouble{tet[random() % 4]} : Trouble(tet.begin(), tet.end()));
-  }
-  return troubles;
-}
-
-TEST(Retreat, OnlyShrinksAndKeepsTheConditions) {
-  for (unsigned seed = 0; seed < 24; ++seed) {
-    const test::RandomShape shape = test::randomShape(seed);
-    const Background b = backgroundOf(shape, 2);
-    Candidate candidate = selectCandidate(b.mesh, b.stars);
-    std::mt19937 random(seed);
-    for (int round = 0; round < 6; ++round) {
-      SCOPED_TRACE("seed " + std::to_string(seed) + ", round " + std::to_string(round) + ", " + shape.name());
-      const Candidate before = candidate;
-      const bool thoroughly = round >= 4;
-      const std::vector<Trouble> troubles = randomTroubles(b.mesh, candidate, random);
-      const std::vector<std::int32_t> released = retreat(b.mesh, b.stars, candidate, troubles, thoroughly);
-
-      EXPECT_TRUE(std::ranges::is_sorted(released));
-      EXPECT_EQ(released.empty(), troubles.empty());
-      std::vector<std::uint8_t> expected = before.enveloped;
-      for (const std::int32_t n : released) {
-        EXPECT_EQ(expected[n], 1);
-        expected[n] = 0;
-      }
-      EXPECT_EQ(candidate.enveloped, expected);
-      EXPECT_TRUE(keepsTheStarsOfEnvelopedNodes(b.mesh, candidate));
-      EXPECT_TRUE(meshConditions(extractMesh(b.mesh, candidate.keep, 1)).good());
-    }
-  }
-}
-
-TEST(Retreat, FromNothingChangesNothing) {
-  const Background b = backgroundOf(test::AnalyticSphere(Vector3d::Zero(), 4), 1);
-  Candidate candidate = selectCandidate(b.mesh, b.stars);
-  const Candidate before = candidate;
-  EXPECT_TRUE(retreat(b.mesh, b.stars, candidate, {}).empty());
-  EXPECT_EQ(candidate.keep, before.keep);
-  EXPECT_EQ(candidate.enveloped, before.enveloped);
 }
 
 TEST(ExtractMesh, NamesTheLatticeNodesAndMarksTheBoundary) {

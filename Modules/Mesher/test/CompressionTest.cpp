@@ -69,7 +69,7 @@ TEST(Compression, PutsTheBoundaryOfRandomShapesOnTheSurfaceAndInvertsNothing) {
     unsnapped += report.unsnapped.size();
     farFromTheGoals += tetsFarFromTheGoals(mesh);
   }
-  // A few are left to the retreat. Of 37,000 tets 10 stay far from the goals; 26 do without the last descent,
+  // A few are left to the repair. Of 37,000 tets 10 stay far from the goals; 26 do without the last descent,
   // 31 without the cap on the snap.
   EXPECT_LE(unsnapped, 10u);
   EXPECT_LE(farFromTheGoals, 18);

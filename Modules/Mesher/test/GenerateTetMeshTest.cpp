@@ -175,7 +175,7 @@ TEST(GenerateTetMesh, ReportsWhatItDid) {
   options.label = 7;
   options.progress = [&](std::string_view stage, double fraction) { calls.emplace_back(stage, fraction); };
   GenerateTetMeshReport report;
-  report.retreats = 99;  // what was there is forgotten
+  report.patchesTried = 99;  // what was there is forgotten
   const TetMesh mesh = generateTetMesh(sphere, options, &report);
   EXPECT_EQ(mesh.labels, std::vector<std::int32_t>(mesh.tets.size(), 7));
 
@@ -185,7 +185,8 @@ TEST(GenerateTetMesh, ReportsWhatItDid) {
   EXPECT_EQ(report.stages[2].name, "compression");
   for (const auto& stage : report.stages) EXPECT_GE(stage.seconds, 0);
   EXPECT_FALSE(report.repairCapReached);
-  EXPECT_LT(report.retreats, 99);
+  EXPECT_LE(report.patchesMended, report.patchesTried);
+  EXPECT_LT(report.patchesTried, 99);
   double largestPhi = 0;
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
     if (mesh.kinds[n] == NodeKind::Boundary)

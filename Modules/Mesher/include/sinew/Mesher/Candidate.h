@@ -34,17 +34,6 @@ struct Candidate {
 Candidate selectCandidate(const LatticeMesh& mesh, const NodeStars& stars,
                           const CandidateOptions& options = {});
 
-/// A place where compression failed: one lattice node (a boundary node that cannot reach the surface) or the
-/// four of a badly shaped tet.
-using Trouble = std::vector<std::int32_t>;
-
-/// Gives up, at each trouble, the shallowest of its enveloped nodes (or, `thoroughly`, all of them), and
-/// keeps the conditions by giving up more: the candidate only shrinks, so a compressed mesh stays free of
-/// inverted tets when it loses the same tets.
-/// @return the lattice nodes given up, ascending
-std::vector<std::int32_t> retreat(const LatticeMesh& mesh, const NodeStars& stars, Candidate& candidate,
-                                  const std::vector<Trouble>& troubles, bool thoroughly = false);
-
 /// The kept tets as a mesh with its node kinds; `latticeNodes`, if given, receives the lattice node of every
 /// mesh node.
 TetMesh extractMesh(const LatticeMesh& mesh, const std::vector<std::uint8_t>& keep, std::int32_t label,

@@ -31,13 +31,14 @@ struct GenerateTetMeshReport {
     std::string name;
     double seconds = 0;
   };
-  std::vector<Stage> stages;      ///< lattice, candidate, compression, in this order
-  int repairPasses = 0;           ///< passes of the T1-T3 repair
-  bool repairCapReached = false;  ///< the candidate still had violations: the mesh was refused
-  int retreats = 0;               ///< rounds in which the candidate gave way to bad tets
-  double maxBoundaryPhi = 0;      ///< largest |phi| at a boundary node, mm
-  double finestCube = 0;          ///< cube size of the finest lattice level used, mm
-  std::int64_t latticeNodes = 0;  ///< nodes of the red-green lattice
+  std::vector<Stage> stages;       ///< lattice, candidate, compression, in this order
+  int repairPasses = 0;            ///< passes of the T1-T3 repair
+  bool repairCapReached = false;   ///< the candidate still had violations: the mesh was refused
+  std::int64_t patchesTried = 0;   ///< places with bad tets where the candidate gave way
+  std::int64_t patchesMended = 0;  ///< those that are better for it
+  double maxBoundaryPhi = 0;       ///< largest |phi| at a boundary node, mm
+  double finestCube = 0;           ///< cube size of the finest lattice level used, mm
+  std::int64_t latticeNodes = 0;   ///< nodes of the red-green lattice
 };
 
 /// Meshes phi < 0: lattice, red-green hierarchy, candidate, compression (Teran et al. 2005).

@@ -19,17 +19,19 @@ namespace sinew {
 struct MeshTissuesOptions {
   Length edgeLength = Length::voxels(2);  ///< cube size at the surface, > 0; at most the tissue's extent
   Length maxEdgeLength = 0;               ///< cube size deep inside; 0: eight times the edge length
+  /// Smallest cube that refinement may make; 0: the level set's spacing.
+  Length minEdgeLength = Length::voxels(0.5);
   std::map<std::string, Length> sizes;  ///< tissue, by a wish as in selectTissues -> its own edge length, > 0
-  Length minEdgeLength =
-      Length::voxels(0.5);  ///< smallest cube that refinement may make; 0: the level set's spacing
-  double curvature = 1.0;   ///< see GenerateTetMeshOptions
-  Length tolerance = 0;     ///< see GenerateTetMeshOptions; 0: off
-  std::int64_t targetTets =
-      0;  ///< choose the edge length of tissues without one in `sizes` for so many tets; 0: off
-  bool preserveVolume =
-      false;  ///< move the target surface until the mesh has the level set's volume within 0.1 %
+  /// Choose the edge length of tissues without one in `sizes` for so many tets within 10 %; 0: off.
+  /// Refinement then goes two levels down at most.
+  std::int64_t targetTets = 0;
+  double curvature = 1.0;  ///< see GenerateTetMeshOptions
+  Length tolerance = 0;    ///< see GenerateTetMeshOptions; 0: off
+  int levels = 0;          ///< see GenerateTetMeshOptions
+  /// Move the target surface, by a tenth of an edge length at most and in at most four meshings, until the
+  /// mesh has the level set's volume within 0.1 %.
+  bool preserveVolume = false;
   bool withQuality = false;            ///< write arrays of quality and level set to the files
-  int levels = 0;                      ///< see GenerateTetMeshOptions
   LevelSetFromLabelsOptions levelSet;  ///< labels to distance
 };
 

@@ -1,0 +1,340 @@
+#include "LocalRepair.h"
+
+#include "GoalMeasure.h"
+#include "KeptSet.h"
+#include "sinew/Mesher/Compression.h"
+#include "sinew/Mesher/MeshQuality.h"
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace sinew {
+namespace {
+
+/// Beyond these a tet is worth a trial to mend it, and beyond the second ones it must go.
+struct Limits {
+  double aspectRatio, minDihedralDeg, maxDihedralDeg;
+
+  bool exceededBy(const TetQuality& q) const {
+    return q.aspectRatio > aspectRatio || q.minDihedralDeg < minDihedralDeg ||
+           q.maxDihedralDeg > maxDihedralDeg;
+  }
+};
+constexpr Limits kBad{3.5, 25, 140}, kGrave{4.2, 20, 142};
+constexpr int kMaxRounds = 40;
+constexpr int kMostRounds = 400;         // while there are grave spots
+constexpr std::size_t kGraveTrials = 4;  // at a grave spot, before something is given up for good
+constexpr int kPatchRings = 3;           // rings of nodes around what was given up that move again
+constexpr std::size_t kMostChoices = 6;  // nodes that are tried at a spot
+
+using Nodes = std::vector<std::int32_t>;
+
+/// A place that needs repair: the lattice nodes of a bad tet, or a boundary node off the surface.
+struct Spot {
+  Nodes nodes;
+  double badness;  ///< goal measure; infinite for a node off the surface
+  bool grave;      ///< must go, even at the price of other bad tets
+
+  bool operator<(const Spot& other) const {
+    return badness != other.badness ? badness > other.badness : nodes < other.nodes;
+  }
+};
+
+/// How bad a patch is: the grave spots, then a sum over the others in which the worst outweighs several that
+/// are just bad.
+class Badness {
+ public:
+  void add(const Spot& spot) {
+    constexpr int kPower = 8;
+    graves_ += spot.grave;
+    if (!spot.grave) sum_ += power(spot.badness, kPower);
+  }
+  bool operator<(const Badness& other) const {
+    return graves_ != other.graves_ ? graves_ < other.graves_ : sum_ < other.sum_;
+  }
+
+ private:
+  int graves_ = 0;
+  double sum_ = 0;
+};
+
+/// A trial: what was given up, and the nodes that move again.
+struct Patch {
+  Nodes key;                ///< the spot's nodes
+  bool lastResort = false;  ///< stays even when it is no better: nothing else has helped
+  Nodes released;
+  Nodes region;
+  Badness before, after;
+};
+
+class LocalRepair {
+ public:
+  LocalRepair(const LatticeMesh& background, const NodeStars& stars, const Candidate& candidate,
+              const SignedDistance& phi, const LocalRepairOptions& options)
+      : background_(background),
+        stars_(stars),
+        phi_(phi),
+        options_(options),
+        set_(background, stars, candidate.enveloped),
+        positions_(background.positions),
+        patchOf_(background.positions.size(), kNone),
+        localOf_(background.positions.size(), kNone) {
+    Nodes latticeNodes;
+    TetMesh mesh = extractMesh(background, set_.keep(), options.label, &latticeNodes);
+    const CompressionReport report = compressOntoSurface(mesh, phi, {.edgeLength = options.edgeLength});
+    for (std::size_t n = 0; n < latticeNodes.size(); ++n) positions_[latticeNodes[n]] = mesh.nodes[n];
+    spots_ = spotsOf(mesh, latticeNodes, report.unsnapped);
+  }
+
+  void run(LocalRepairReport& report) {
+    for (; report.rounds < (anyGrave() ? kMostRounds : kMaxRounds); ++report.rounds) {
+      std::vector<Patch> patches = choosePatches();
+      if (patches.empty()) break;
+      report.tried += std::ssize(patches);
+      report.accepted += tryPatches(patches);
+    }
+  }
+
+  /// @throws std::runtime_error when a boundary node is off the surface
+  TetMesh mesh() const {
+    if (const auto off = nodesOffSurface(); off > 0)
+      throw std::runtime_error(
+          std::to_string(off) +
+          " boundary nodes cannot reach the surface without crushing tets; try a smaller edge length");
+    Nodes latticeNodes;
+    TetMesh mesh = extractMesh(background_, set_.keep(), options_.label, &latticeNodes);
+    for (std::size_t n = 0; n < latticeNodes.size(); ++n) mesh.nodes[n] = positions_[latticeNodes[n]];
+    return mesh;
+  }
+
+ private:
+  bool anyGrave() const { return std::ranges::any_of(spots_, &Spot::grave); }
+  std::ptrdiff_t nodesOffSurface() const {
+    return std::ranges::count_if(spots_, [](const Spot& spot) { return spot.badness == kInfinity; });
+  }
+
+  static std::vector<Spot> spotsOf(const TetMesh& mesh, const Nodes& latticeNodes, const Nodes& unsnapped) {
+    std::vector<Spot> spots;
+    for (const std::int32_t n : unsnapped) spots.push_back({{latticeNodes[n]}, kInfinity, true});
+    const auto& x = mesh.nodes;
+    for (const auto& [a, b, c, d] : mesh.tets) {
+      const double measure = goalMeasure(x[d], x[a], x[b], x[c]);
+      if (measure <= 1) continue;
+      const TetQuality quality = tetQuality(x[a], x[b], x[c], x[d]);
+      if (!kBad.exceededBy(quality)) continue;
+      spots.push_back({{latticeNodes[a], latticeNodes[b], latticeNodes[c], latticeNodes[d]},
+                       measure,
+                       kGrave.exceededBy(quality)});
+    }
+    return spots;
+  }
+
+  /// Spots from the worst on, each with what is tried there next; patches that would touch wait for a later
+  /// round.
+  std::vector<Patch> choosePatches() {
+    std::sort(spots_.begin(), spots_.end());
+    std::vector<Patch> patches;
+    for (const Spot& spot : spots_) {
+      if (isTaken(spot.nodes)) continue;
+      Patch patch;
+      patch.key = spot.nodes;
+      const std::size_t trial = trials_[spot.nodes];
+      patch.lastResort = spot.grave && trial >= kGraveTrials;
+      const Nodes choice = choiceAt(spot, patch.lastResort ? 0 : trial);
+      if (choice.empty()) continue;
+      patch.released = releaseNodes(set_, choice);
+      patch.region = regionAround(patch.released);
+      if (isTaken(patch.region)) {
+        putBack(patch);
+        continue;
+      }
+      take(patch.region, static_cast<std::int32_t>(patches.size()));
+      patches.push_back(std::move(patch));
+    }
+    return patches;
+  }
+
+  bool isTaken(const Nodes& nodes) const {
+    return std::ranges::any_of(nodes, [&](std::int32_t n) { return patchOf_[n] != kNone; });
+  }
+  void take(const Nodes& nodes, std::int32_t patch) {
+    for (const std::int32_t n : nodes) patchOf_[n] = patch;
+  }
+
+  /// What is given up at a spot in the k-th trial: its shallowest enveloped node; that of all spots around
+  /// too; all the nodes at the spot; then one after the other. Empty when all has been tried.
+  Nodes choiceAt(const Spot& spot, std::size_t trial) const {
+    const Nodes nodes = envelopedAt(spot);
+    if (nodes.empty() || trial > nodes.size() + 1) return {};
+    if (trial == 0) return {nodes[0]};
+    if (trial == 1) return shallowestAround(nodes[0]);
+    if (trial == 2) return nodes;
+    return {nodes[trial - 2]};
+  }
+
+  /// The enveloped nodes of the tets at a spot, the shallowest first.
+  Nodes envelopedAt(const Spot& spot) const {
+    std::vector<std::pair<double, std::int32_t>> found;
+    for (const std::int32_t n : spot.nodes) {
+      for (const std::int32_t t : stars_.of(n)) {
+        for (const std::int32_t v : background_.tets[t]) {
+          if (set_.isEnveloped(v)) found.emplace_back(-background_.phi[v], v);
+        }
+      }
+    }
+    std::ranges::sort(found);
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    if (found.size() > kMostChoices) found.resize(kMostChoices);
+    Nodes nodes;
+    for (const auto& [depth, v] : found) nodes.push_back(v);
+    return nodes;
+  }
+
+  Nodes shallowestAround(std::int32_t node) const {
+    const Nodes around = regionAround({node});
+    Nodes nodes;
+    for (const Spot& spot : spots_) {
+      const bool near = std::ranges::any_of(
+          spot.nodes, [&](std::int32_t n) { return std::ranges::binary_search(around, n); });
+      const Nodes choices = near ? envelopedAt(spot) : Nodes{};
+      if (!choices.empty()) nodes.push_back(choices.front());
+    }
+    std::ranges::sort(nodes);
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    return nodes;
+  }
+
+  void putBack(const Patch& patch) {
+    for (const std::int32_t n : patch.released) set_.envelope(n);
+  }
+
+  /// The nodes within a few rings of what was released.
+  Nodes regionAround(const Nodes& released) const {
+    Nodes region = released;
+    for (int ring = 0; ring <= kPatchRings; ++ring) {
+      const std::size_t before = region.size();
+      for (std::size_t n = 0; n < before; ++n) {
+        for (const std::int32_t t : stars_.of(region[n])) {
+          if (ring > 0 && !set_.isKept(t)) continue;
+          const Tet& tet = background_.tets[t];
+          region.insert(region.end(), tet.begin(), tet.end());
+        }
+      }
+      std::ranges::sort(region);
+      region.erase(std::unique(region.begin(), region.end()), region.end());
+    }
+    return region;
+  }
+
+  /// Compresses all patches at once and puts back those that are not better.
+  /// @return how many are better
+  std::int64_t tryPatches(std::vector<Patch>& patches) {
+    for (const Spot& spot : spots_) {
+      if (const std::int32_t p = patchAt(spot.nodes); p != kNone) patches[p].before.add(spot);
+    }
+    Nodes latticeNodes;
+    TetMesh local = localMesh(patches, latticeNodes);
+    std::vector<std::uint8_t> region(latticeNodes.size());
+    for (std::size_t n = 0; n < region.size(); ++n) region[n] = isInner(latticeNodes[n]);
+    const CompressionReport report =
+        compressOntoSurface(local, phi_, {.edgeLength = options_.edgeLength}, region);
+    const std::vector<Spot> found = spotsOf(local, latticeNodes, report.unsnapped);
+    for (const Spot& spot : found) {
+      if (const std::int32_t p = patchAt(spot.nodes); p != kNone) patches[p].after.add(spot);
+    }
+
+    std::int64_t accepted = 0;
+    std::vector<std::uint8_t> better(patches.size());
+    for (std::size_t p = 0; p < patches.size(); ++p) {
+      better[p] = patches[p].after < patches[p].before || patches[p].lastResort;
+      accepted += better[p];
+      if (better[p] != 0) continue;
+      putBack(patches[p]);
+      ++trials_[patches[p].key];
+    }
+    const auto isBetter = [&](std::int32_t p) { return p != kNone && better[p] != 0; };
+    std::erase_if(spots_, [&](const Spot& spot) { return isBetter(patchAt(spot.nodes)); });
+    for (const Spot& spot : found)
+      if (isBetter(patchAt(spot.nodes))) spots_.push_back(spot);
+    for (std::size_t n = 0; n < latticeNodes.size(); ++n)
+      if (isBetter(patchOf_[latticeNodes[n]])) positions_[latticeNodes[n]] = local.nodes[n];
+    for (const Patch& patch : patches) take(patch.region, kNone);
+    return accepted;
+  }
+
+  /// The patch that moves one of the nodes, or kNone.
+  std::int32_t patchAt(const Nodes& nodes) const {
+    for (const std::int32_t n : nodes)
+      if (isInner(n)) return patchOf_[n];
+    return kNone;
+  }
+
+  /// Whether all kept tets of a node lie within its patch, so that none of another patch moves with it.
+  bool isInner(std::int32_t n) const {
+    if (patchOf_[n] == kNone) return false;
+    return std::ranges::all_of(stars_.of(n), [&](std::int32_t t) {
+      return !set_.isKept(t) || std::ranges::all_of(background_.tets[t], [&](std::int32_t v) {
+        return patchOf_[v] == patchOf_[n];
+      });
+    });
+  }
+
+  /// The kept tets that have a node in a patch, at the present positions.
+  TetMesh localMesh(const std::vector<Patch>& patches, Nodes& latticeNodes) {
+    Nodes tets;
+    for (const Patch& patch : patches) {
+      for (const std::int32_t n : patch.region) {
+        for (const std::int32_t t : stars_.of(n)) {
+          if (set_.isKept(t)) tets.push_back(t);
+        }
+      }
+    }
+    std::ranges::sort(tets);
+    tets.erase(std::unique(tets.begin(), tets.end()), tets.end());
+
+    TetMesh mesh;
+    for (const std::int32_t t : tets) {
+      Tet tet = background_.tets[t];
+      for (std::int32_t& v : tet) {
+        if (localOf_[v] == kNone) {
+          localOf_[v] = static_cast<std::int32_t>(latticeNodes.size());
+          latticeNodes.push_back(v);
+          mesh.nodes.push_back(positions_[v]);
+          mesh.kinds.push_back(set_.isBoundary(v) ? NodeKind::Boundary : NodeKind::Interior);
+        }
+        v = localOf_[v];
+      }
+      mesh.tets.push_back(tet);
+    }
+    for (const std::int32_t n : latticeNodes) localOf_[n] = kNone;
+    mesh.labels.assign(mesh.tets.size(), options_.label);
+    return mesh;
+  }
+
+  const LatticeMesh& background_;
+  const NodeStars& stars_;
+  const SignedDistance& phi_;
+  const LocalRepairOptions& options_;
+  KeptSet set_;
+  std::vector<Eigen::Vector3d> positions_;  ///< of the lattice nodes, as compressed so far
+  Nodes patchOf_;                           ///< lattice node -> patch of the present round, or kNone
+  Nodes localOf_;                           ///< scratch of localMesh
+  std::vector<Spot> spots_;
+  std::map<Nodes, std::size_t> trials_;  ///< spot -> choices that did not help
+};
+
+}  // namespace
+
+TetMesh compressAndRepair(const LatticeMesh& background, const NodeStars& stars, const Candidate& candidate,
+                          const SignedDistance& phi, const LocalRepairOptions& options,
+                          LocalRepairReport* report) {
+  LocalRepairReport local;
+  LocalRepair repair(background, stars, candidate, phi, options);
+  repair.run(report != nullptr ? *report : local);
+  return repair.mesh();
+}
+
+}  // namespace sinew
