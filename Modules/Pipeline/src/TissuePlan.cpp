@@ -64,7 +64,8 @@ TissuePlan planTrial(const Segmentation& segmentation, const Tissue& tissue, dou
                      const MeshTissuesOptions& options) {
   constexpr double kTwoLevelsDown = 0.25;
   TissuePlan plan = planTissue(segmentation, tissue, edge, options);
-  plan.sizes.smallest = std::max(plan.sizes.smallest, kTwoLevelsDown * plan.sizes.edge);
+  const double smallest = plan.sizes.smallest > 0 ? plan.sizes.smallest : plan.levelSet.gridSpacing;
+  plan.sizes.smallest = std::max(smallest, kTwoLevelsDown * plan.sizes.edge);
   return plan;
 }
 

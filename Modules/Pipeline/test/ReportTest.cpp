@@ -21,6 +21,7 @@ MeshingReport exampleRun() {
   run.options.sizes["skin"] = Length::voxels(4);
   run.options.targetTets = 5000;
   run.options.tolerance = 0.1;
+  run.options.minEdgeLength = Length::voxels(0.5);
   run.options.preserveVolume = true;
   run.threads = 3;
   run.seconds = 1.5;

@@ -42,8 +42,7 @@ TEST(TissuePlan, NoCubeIsLargerThanTheTissue) {
 }
 
 TEST(TissuePlan, RefinementStopsAtTheSmallestCube) {
-  EXPECT_EQ(planOf(2).sizes.smallest, 0.5) << "half a voxel";
-  EXPECT_EQ(planOf(50).sizes.smallest, 0.5);
+  EXPECT_EQ(planOf(2).sizes.smallest, 0) << "the level set's spacing";
   MeshTissuesOptions options;
   options.minEdgeLength = 1.5;
   EXPECT_EQ(planOf(2, options).sizes.smallest, 1.5);
@@ -51,6 +50,7 @@ TEST(TissuePlan, RefinementStopsAtTheSmallestCube) {
   const Segmentation segmentation = plate();
   EXPECT_EQ(planTrial(segmentation, segmentation.tissues[0], 12, options).sizes.smallest, 3);
   EXPECT_EQ(planTrial(segmentation, segmentation.tissues[0], 2, options).sizes.smallest, 1.5);
+  EXPECT_EQ(planTrial(segmentation, segmentation.tissues[0], 2, {}).sizes.smallest, 1) << "a voxel";
 }
 
 TEST(TissuePlan, ASpeckMayBeRefinedOnce) {
@@ -59,7 +59,9 @@ TEST(TissuePlan, ASpeckMayBeRefinedOnce) {
   std::fill(voxels.begin(), voxels.end(), 0);
   voxels[44 * 34 * 3 + 44 * 10 + 10] = 1;
   updateTissueTable(segmentation);
-  const TissuePlan plan = planTissue(segmentation, segmentation.tissues[0], 2, {});
+  MeshTissuesOptions options;
+  options.minEdgeLength = Length::voxels(0.5);
+  const TissuePlan plan = planTissue(segmentation, segmentation.tissues[0], 2, options);
   EXPECT_TRUE(plan.sizeReduced);
   EXPECT_DOUBLE_EQ(plan.sizes.edge, 1. / 3);
   EXPECT_DOUBLE_EQ(plan.sizes.smallest, 1. / 6);
