@@ -40,17 +40,28 @@ void addOptions(CommandLine& line, MeshCommand& command) {
       ->take_all();
   app.add_option("--lut", command.reading.lut, "colour table with the names of the labels")
       ->type_name("FILE");
-  line.addLength("--edge-length", meshing.edgeLength, "cube size of the lattice at the surface");
+  CLI::Option* edgeLength =
+      line.addLength("--edge-length", meshing.edgeLength, "cube size of the lattice at the surface");
   line.addLength("--max-edge-length", meshing.maxEdgeLength,
                  "cube size deep inside; 0: eight times the edge length");
+  line.addLength("--min-edge-length", meshing.minEdgeLength,
+                 "smallest cube that refinement may make; 0: the level set's spacing");
   app.add_option("--size", command.sizes, "edge length of one tissue; repeatable")
       ->type_name("TISSUE=LENGTH")
       ->expected(1)
       ->take_all();
+  app.add_option(
+         "--target-tets", meshing.targetTets,
+         "choose the edge length of each tissue without a --size for so many tets, within 10 %; 0: off")
+      ->check(CommandLine::atLeast(0))
+      ->capture_default_str()
+      ->excludes(edgeLength);
   app.add_option("--curvature", meshing.curvature,
                  "refine where cube size times curvature exceeds this; 0: nowhere")
       ->check(CommandLine::atLeast(0))
       ->capture_default_str();
+  line.addLength("--tolerance", meshing.tolerance,
+                 "refine where cube size^2 times curvature / 8 exceeds this; 0: nowhere");
   app.add_option("--levels", meshing.levels,
                  "largest number of lattice levels; 0: as many as the sizes ask for")
       ->check(CommandLine::atLeast(0))
@@ -62,6 +73,10 @@ void addOptions(CommandLine& line, MeshCommand& command) {
   app.add_option("--method", command.method, "how the mesh is fitted to the surface")
       ->check(CLI::IsMember({"optimization"}))
       ->capture_default_str();
+  app.add_flag("--preserve-volume", meshing.preserveVolume,
+               "move the target surface until the mesh has the volume of the level set within 0.1 %");
+  app.add_flag("--with-quality", meshing.withQuality,
+               "write the arrays aspect_ratio, min_dihedral_deg, max_dihedral_deg and phi to the meshes");
   app.footer(
       "Lengths are mm, or voxels with the suffix vox: 1vox is the cube root of the voxel volume.\n"
       "Exit code 0: every tissue is meshed or too small for the lattice; 1: failed, or a tissue failed.");
@@ -95,6 +110,7 @@ std::int64_t countOf(TissueStatus status, const std::vector<TissueReport>& repor
 TextTable tissueTable(const std::vector<TissueReport>& reports) {
   TextTable table({{"tissue", Align::Left},
                    {"status", Align::Left},
+                   {"edge, mm"},
                    {"tets"},
                    {"max AR"},
                    {"mean AR"},
@@ -105,13 +121,22 @@ TextTable tissueTable(const std::vector<TissueReport>& reports) {
     const std::string seconds = fixed(totalSeconds(report), 1);
     if (report.status != TissueStatus::Meshed) {
       const Tone tone = report.status == TissueStatus::Lost ? Tone::Warning : Tone::Bad;
-      table.add({report.name, {toString(report.status), tone}, "-", "-", "-", "-", "-", seconds});
+      table.add({report.name,
+                 {toString(report.status), tone},
+                 fixed(report.edgeLength, 3),
+                 "-",
+                 "-",
+                 "-",
+                 "-",
+                 "-",
+                 seconds});
       continue;
     }
     const MeshQuality& quality = report.quality;
     const double volumeError = 100 * (report.fidelity.volume / report.fidelity.labelVolume - 1);
     table.add({report.name,
                {toString(report.status), Tone::Good},
+               fixed(report.edgeLength, 3),
                grouped(quality.tets),
                fixed(quality.maxAspectRatio, 2),
                fixed(quality.meanAspectRatio, 2),

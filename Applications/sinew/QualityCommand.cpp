@@ -1,3 +1,4 @@
+#include "BarChart.h"
 #include "CommandLine.h"
 #include "TextTable.h"
 #include "commands.h"
@@ -10,6 +11,7 @@ namespace {
 struct QualityCommand {
   std::vector<std::string> meshes;
   std::string reference, tissue;
+  bool histogram = false;
   ReadSegmentationOptions reading;
   LevelSetFromLabelsOptions levelSet;
 };
@@ -81,14 +83,47 @@ TextTable fidelityTable(const std::vector<MeshAssessment>& assessments) {
   return table;
 }
 
+BarChart dihedralChart(const QualityHistogram& histogram) {
+  BarChart chart{"dihedral, deg", {}};
+  for (std::size_t bin = 0; bin < kDihedralBins; ++bin) {
+    const double from = kDihedralBinDeg * static_cast<double>(bin);
+    chart.bars.push_back(
+        {fixed(from, 0) + " - " + fixed(from + kDihedralBinDeg, 0), histogram.dihedrals[bin]});
+  }
+  return chart;
+}
+
+BarChart aspectRatioChart(const QualityHistogram& histogram) {
+  BarChart chart{"aspect ratio", {}};
+  for (std::size_t bin = 0; bin < kAspectRatioBins.size(); ++bin) {
+    const bool open = bin + 1 == kAspectRatioBins.size();
+    chart.bars.push_back(
+        {fixed(kAspectRatioBins[bin], 2) + " - " + (open ? "" : fixed(kAspectRatioBins[bin + 1], 2)),
+         histogram.aspectRatios[bin]});
+  }
+  return chart;
+}
+
+void printHistograms(const std::vector<MeshAssessment>& assessments) {
+  for (const MeshAssessment& mesh : assessments) {
+    std::cout << '\n';
+    if (assessments.size() > 1) std::cout << printable(mesh.file) << '\n';
+    dihedralChart(mesh.histogram).print(std::cout);
+    std::cout << '\n';
+    aspectRatioChart(mesh.histogram).print(std::cout);
+  }
+}
+
 int quality(const CommandLine& line, const QualityCommand& command) {
   const std::vector<MeshAssessment> assessments = assess(command);
   line.writeJson(toJson(assessments));
   if (line.common.jsonOnStdout()) return 0;
   qualityTable(assessments).print(std::cout);
-  if (command.reference.empty()) return 0;
-  std::cout << '\n';
-  fidelityTable(assessments).print(std::cout);
+  if (!command.reference.empty()) {
+    std::cout << '\n';
+    fidelityTable(assessments).print(std::cout);
+  }
+  if (command.histogram || assessments.size() == 1) printHistograms(assessments);
   return 0;
 }
 
@@ -113,6 +148,8 @@ int runQuality(const std::vector<std::string>& arguments) {
                  "standard deviation of the Gauss on the labels, voxels, as it was for the mesh")
       ->check(CommandLine::atLeast(0))
       ->capture_default_str();
+  app.add_flag("--histogram", command.histogram,
+               "show how dihedral angles and aspect ratios are spread; by default for a single mesh");
   app.footer(
       "T1: boundary edges and nodes where the boundary is no manifold; T2: tets with four boundary nodes;\n"
       "T3: interior edges and faces with all nodes on the boundary; edges: longest over shortest.");

@@ -102,6 +102,97 @@ TEST(MeshCommand, TissuesSizesAndConfigFile) {
   EXPECT_EQ(report["tissues"][1]["edge_length_mm"], 4.0);
 }
 
+TEST(MeshCommand, QualityGoesIntoTheFilesAndTheWorstTetsIntoTheReport) {
+  const TempFolder folder;
+  makePhantom(folder, "nested", {"--spacing", "2"});
+  ASSERT_EQ(meshNested(folder, {"--with-quality"}).exitCode, 0);
+  const Json report = reportIn(folder);
+  EXPECT_EQ(report["options"]["with_quality"], true);
+  for (const Json& tissue : report["tissues"]) {
+    const std::string file = readBytes(folder / "out" / tissue["file"].get<std::string>());
+    for (const char* name : {"aspect_ratio", "min_dihedral_deg", "max_dihedral_deg", "phi"})
+      EXPECT_NE(file.find("Name=\"" + std::string(name) + "\""), std::string::npos) << name;
+    ASSERT_EQ(tissue["worst"].size(), 15u);
+    EXPECT_EQ(tissue["worst"][0]["measure"], "aspect_ratio");
+    EXPECT_EQ(tissue["worst"][0]["value"], tissue["quality"]["max_aspect_ratio"]);
+    EXPECT_EQ(tissue["worst"][5]["value"], tissue["quality"]["min_dihedral_deg"]);
+    EXPECT_EQ(tissue["worst"][10]["value"], tissue["quality"]["max_dihedral_deg"]);
+    EXPECT_EQ(tissue["worst"][0]["place_mm"].size(), 3u);
+  }
+}
+
+TEST(MeshCommand, TheNumberOfTetsMayBeChosen) {
+  const TempFolder folder;
+  const fs::path sphere = makePhantom(folder, "sphere", {"--spacing", "2"});
+  const auto mesh = [&](const std::vector<std::string>& further) {
+    std::vector<std::string> arguments{"mesh", sphere.string(), "-o", (folder / "out").string(), "--force"};
+    arguments.insert(arguments.end(), further.begin(), further.end());
+    return run(arguments);
+  };
+  std::vector<std::string> files;
+  for (const char* threads : {"1", "2"}) {
+    ASSERT_EQ(mesh({"--target-tets", "30000", "--threads", threads}).exitCode, 0);
+    files.push_back(readBytes(folder / "out" / "sphere.vtu"));
+  }
+  EXPECT_TRUE(files[0] == files[1]) << "depends on the number of threads";
+  const Json tissue = reportIn(folder)["tissues"][0];
+  EXPECT_NEAR(tissue["tets"].get<double>(), 30'000, 3000);
+  EXPECT_EQ(tissue["message"], "");
+  EXPECT_EQ(mesh({"--target-tets", "30000", "--edge-length", "2"}).exitCode, 2) << "one or the other";
+}
+
+TEST(MeshCommand, ToleranceAndSmallestCubeDriveTheRefinement) {
+  const TempFolder folder;
+  const fs::path sphere = makePhantom(folder, "sphere", {"--spacing", "1"});
+  const auto tissueWith = [&](const std::vector<std::string>& further) {
+    std::vector<std::string> arguments{"mesh",    sphere.string(), "-o", (folder / "out").string(),
+                                       "--force", "--edge-length", "4",  "--curvature",
+                                       "0"};
+    arguments.insert(arguments.end(), further.begin(), further.end());
+    EXPECT_EQ(run(arguments).exitCode, 0);
+    return reportIn(folder)["tissues"][0];
+  };
+  // On the radius of 20 mm the bound h^2 / (8 * 20 mm) is 0.1 mm for cubes of 4 mm; the terraces of the
+  // voxels, which the smoothing leaves, come on top.
+  const Json plain = tissueWith({}), fine = tissueWith({"--tolerance", "0.1"}),
+             capped = tissueWith({"--tolerance", "0.1", "--min-edge-length", "4"});
+  EXPECT_EQ(tissueWith({"--tolerance", "0.5"})["tets"], plain["tets"]);
+  EXPECT_GT(fine["tets"], 3 * plain["tets"].get<int>());
+  EXPECT_EQ(capped["tets"], plain["tets"]);
+  EXPECT_LT(fine["fidelity"]["surface_max_mm"], 0.1);
+  EXPECT_GT(plain["fidelity"]["surface_max_mm"], 0.1);
+}
+
+TEST(MeshCommand, TheVolumeMayBePreserved) {
+  const TempFolder folder;
+  const fs::path torus = makePhantom(folder, "torus");
+  ASSERT_EQ(run({"mesh", torus.string(), "-o", (folder / "out").string(), "--edge-length", "4",
+                 "--preserve-volume"})
+                .exitCode,
+            0);
+  const Json fidelity = reportIn(folder)["tissues"][0]["fidelity"];
+  EXPECT_NEAR(fidelity["volume_mm3"].get<double>() / fidelity["level_set_volume_mm3"].get<double>(), 1,
+              0.001);
+}
+
+TEST(MeshCommand, AnUnderResolvedTissueIsToldTheOptionToChange) {
+  const TempFolder folder;
+  const fs::path sphere = makePhantom(folder, "sphere", {"--spacing", "4"});
+  const auto outputWith = [&](const std::vector<std::string>& further) {
+    std::vector<std::string> arguments{"mesh",    sphere.string(), "-o", (folder / "out").string(),
+                                       "--force", "--edge-length", "30", "--curvature",
+                                       "0"};
+    arguments.insert(arguments.end(), further.begin(), further.end());
+    return run(arguments).out;
+  };
+  const std::string warned = outputWith({});
+  const std::size_t start = warned.find("--size 'sphere=");
+  ASSERT_NE(start, std::string::npos) << warned;
+  EXPECT_NE(warned.find("sphere (meshed): under-resolved: volume "), std::string::npos) << warned;
+  const std::string size = warned.substr(start + 8, warned.find('\'', start + 8) - start - 8);
+  EXPECT_EQ(outputWith({"--size", size}).find("under-resolved"), std::string::npos) << size;
+}
+
 /// A Slicer segmentation of 14^3 voxels of 1 mm: a cube of 8^3 with label 1 and the given name, one voxel
 /// with label 2.
 fs::path cubeAndThread(const TempFolder& folder, const std::string& cubeName) {

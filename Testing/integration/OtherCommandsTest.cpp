@@ -74,6 +74,27 @@ TEST(QualityCommand, MeasuresMeshesAndComparesThemWithTheirTissue) {
   EXPECT_EQ(json["fidelity"]["dice"], report["fidelity"]["dice"]);
 }
 
+TEST(QualityCommand, ShowsHowTheQualityIsSpread) {
+  const TempFolder folder;
+  const fs::path sphere = makePhantom(folder, "sphere", {"--spacing", "4"});
+  ASSERT_EQ(run({"mesh", sphere.string(), "-o", (folder / "out").string()}).exitCode, 0);
+  const std::string mesh = (folder / "out" / "sphere.vtu").string();
+  const Json json = Json::parse(run({"quality", mesh, "--json", "-"}).out)["meshes"][0];
+  const auto sum = [](const Json& histogram) {
+    std::int64_t total = 0;
+    for (const Json& count : histogram["counts"]) total += count.get<std::int64_t>();
+    return total;
+  };
+  EXPECT_EQ(sum(json["histogram"]["dihedral_deg"]), 6 * json["tets"].get<std::int64_t>());
+  EXPECT_EQ(sum(json["histogram"]["aspect_ratio"]), json["tets"].get<std::int64_t>());
+  EXPECT_EQ(json["worst"].size(), 15u);
+
+  const std::string chart = "60 - 70";
+  EXPECT_NE(run({"quality", mesh}).out.find(chart), std::string::npos) << "by default for one mesh";
+  EXPECT_EQ(run({"quality", mesh, mesh}).out.find(chart), std::string::npos);
+  EXPECT_NE(run({"quality", mesh, mesh, "--histogram"}).out.find(chart), std::string::npos);
+}
+
 TEST(QualityCommand, ABrokenMeshIsToldInOneLine) {
   const TempFolder folder;
   writeBytes(folder / "broken.vtu", "<VTKFile");

@@ -4,7 +4,7 @@
 # "### Common options"; the first cell of a row is the option in backticks, spelled as in --help: `--noise FLOAT=0`.
 cmake_minimum_required(VERSION 3.25)
 
-# Spellings in the help of a command, without REQUIRED and Needs; the common ones by themselves.
+# Spellings in the help of a command, without REQUIRED, Needs and Excludes; the common ones by themselves.
 function(options_of_help command own_out common_out)
   execute_process(COMMAND ${SINEW} ${command} --help OUTPUT_VARIABLE help COMMAND_ERROR_IS_FATAL ANY)
   string(REGEX REPLACE "[][;]" "" help "${help}")
@@ -16,7 +16,7 @@ function(options_of_help command own_out common_out)
     set(options)
     foreach(line IN LISTS lines)
       string(REGEX REPLACE "^\n  (-[^ ]+( [^ ]+)*).*" "\\1" option "${line}")
-      string(REGEX REPLACE " REQUIRED.*| Needs: [^ ]*.*" "" option "${option}")
+      string(REGEX REPLACE " REQUIRED.*| (Needs|Excludes): [^ ]*.*" "" option "${option}")
       list(APPEND options "${option}")
     endforeach()
     set(${${part}_out} "${options}" PARENT_SCOPE)

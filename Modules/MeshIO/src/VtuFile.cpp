@@ -8,7 +8,9 @@
 #include <vtkCellType.h>
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
+#include <vtkFloatArray.h>
 #include <vtkObjectFactory.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkSmartPointer.h>
 #include <vtkTypeInt32Array.h>
@@ -54,7 +56,15 @@ vtkSmartPointer<Array> wrap(const T* data, std::size_t values, int components) {
   return array;
 }
 
-vtkSmartPointer<vtkUnstructuredGrid> gridOn(const TetMesh& mesh) {
+void addArrays(const std::vector<MeshArray>& arrays, vtkDataSetAttributes* attributes) {
+  for (const MeshArray& array : arrays) {
+    const auto wrapped = wrap<vtkFloatArray>(array.values.data(), array.values.size(), 1);
+    wrapped->SetName(array.name.c_str());
+    attributes->AddArray(wrapped);
+  }
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> gridOn(const TetMesh& mesh, const MeshArrays& further) {
   static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double) && sizeof(Tet) == 4 * sizeof(std::int32_t));
   const auto points = vtkSmartPointer<vtkPoints>::New();
   const auto* coordinates = reinterpret_cast<const double*>(mesh.nodes.data());
@@ -71,6 +81,8 @@ vtkSmartPointer<vtkUnstructuredGrid> gridOn(const TetMesh& mesh) {
   grid->SetPoints(points);
   grid->SetCells(VTK_TETRA, cells);
   grid->GetCellData()->SetScalars(labels);
+  addArrays(further.cells, grid->GetCellData());
+  addArrays(further.points, grid->GetPointData());
   return grid;
 }
 
@@ -111,6 +123,12 @@ std::string writeGrid(vtkUnstructuredGrid* grid, const fs::path& file) {
     return vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode());
   if (trap.failed()) return trap.firstError();
   return wrote && endsLikeVtu(file) ? "" : "the file is incomplete; is the disk full?";
+}
+
+void checkSize(const std::string& name, std::size_t values, std::size_t wanted, const char* of) {
+  if (values != wanted)
+    throw std::invalid_argument("writeVtu: " + std::to_string(values) + " " + name + " for " +
+                                std::to_string(wanted) + " " + of);
 }
 
 // ---- reading ----
@@ -193,13 +211,15 @@ std::vector<NodeKind> kindsOf(const TetMesh& mesh) {
 
 }  // namespace
 
-void writeVtu(const TetMesh& mesh, const fs::path& file) {
-  if (mesh.labels.size() != mesh.tets.size())
-    throw std::invalid_argument("writeVtu: " + std::to_string(mesh.labels.size()) + " labels for " +
-                                std::to_string(mesh.tets.size()) + " tets");
+void writeVtu(const TetMesh& mesh, const fs::path& file, const MeshArrays& further) {
+  checkSize(kLabels, mesh.labels.size(), mesh.tets.size(), "tets");
+  for (const MeshArray& array : further.cells)
+    checkSize(array.name, array.values.size(), mesh.tets.size(), "tets");
+  for (const MeshArray& array : further.points)
+    checkSize(array.name, array.values.size(), mesh.nodes.size(), "nodes");
   const bool replaceable = !fs::exists(file) || fs::is_regular_file(file);
   const fs::path partial = replaceable ? fs::path(file).concat(".partial") : file;
-  std::string problem = writeGrid(gridOn(mesh), partial);
+  std::string problem = writeGrid(gridOn(mesh, further), partial);
   std::error_code error;
   if (problem.empty() && replaceable) fs::rename(partial, file, error);
   if (error) problem = error.message();

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <vtkCellData.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
@@ -122,6 +123,31 @@ TEST(VtuFile, LabelsAreTheActiveScalars) {
   ASSERT_NE(scalars, nullptr);
   EXPECT_STREQ(scalars->GetName(), "labels");
   EXPECT_EQ(scalars->GetDataType(), VTK_INT);
+}
+
+TEST(VtuFile, FurtherArraysStandBesideTheLabels) {
+  const TempFolder folder;
+  const TetMesh mesh = exampleMesh();
+  MeshArrays further;
+  further.cells = {{"quality", std::vector<float>(mesh.tets.size(), 1.5F)},
+                   {"other", std::vector<float>(mesh.tets.size(), -2)}};
+  further.points = {{"phi", {}}};
+  for (const Eigen::Vector3d& x : mesh.nodes) further.points[0].values.push_back(static_cast<float>(x.x()));
+  writeVtu(mesh, folder / "a.vtu", further);
+  const vtkNew<vtkXMLUnstructuredGridReader> reader;
+  reader->SetFileName((folder / "a.vtu").c_str());
+  reader->Update();
+  vtkCellData* cells = reader->GetOutput()->GetCellData();
+  EXPECT_STREQ(cells->GetScalars()->GetName(), "labels");
+  ASSERT_EQ(cells->GetNumberOfArrays(), 3);
+  EXPECT_EQ(cells->GetArray("quality")->GetDataType(), VTK_FLOAT);
+  EXPECT_EQ(cells->GetArray("quality")->GetComponent(7, 0), 1.5);
+  EXPECT_EQ(cells->GetArray("other")->GetComponent(7, 0), -2);
+  vtkDataArray* phi = reader->GetOutput()->GetPointData()->GetArray("phi");
+  ASSERT_NE(phi, nullptr);
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
+    ASSERT_EQ(phi->GetComponent(vtkIdType(n), 0), static_cast<float>(mesh.nodes[n].x()));
+  EXPECT_EQ(readTetMesh(folder / "a.vtu").tets, mesh.tets);
 }
 
 TEST(VtuFile, LeavesNothingButTheFile) {
@@ -248,6 +274,10 @@ TEST_F(VtuFileErrors, LabelsThatDoNotFit) {
   TetMesh mesh = exampleMesh();
   mesh.labels.pop_back();
   EXPECT_THROW(writeVtu(mesh, folder_ / "a.vtu"), std::invalid_argument);
+  const std::string message = messageOf<std::invalid_argument>([&] {
+    writeVtu(exampleMesh(), folder_ / "a.vtu", {.cells = {}, .points = {{"phi", {1, 2}}}});
+  });
+  EXPECT_TRUE(message.starts_with("writeVtu: 2 phi for ")) << message;
   EXPECT_FALSE(fs::exists(folder_ / "a.vtu"));
 }
 

@@ -52,14 +52,19 @@ SizingOptions sizingOptions(const SignedDistance& phi, const GenerateTetMeshOpti
   requireThat(options.maxEdgeLength == 0 || options.maxEdgeLength >= options.edgeLength,
               "maxEdgeLength must not be below edgeLength");
   requireThat(options.curvature >= 0, "curvature must not be negative");
+  requireThat(options.minEdgeLength >= 0 && std::isfinite(options.minEdgeLength),
+              "minEdgeLength must be a length or 0");
+  requireThat(options.tolerance >= 0 && std::isfinite(options.tolerance), "tolerance must be a length or 0");
   requireThat(options.levels >= 0, "levels must not be negative");
   requireThat(phi.band() >= kBandEdges * options.edgeLength,
               "phi must be known up to 1.55 edge lengths from its surface");
   SizingOptions sizing;
   sizing.edgeLength = options.edgeLength;
   sizing.maxEdgeLength = options.maxEdgeLength > 0 ? options.maxEdgeLength : 8 * options.edgeLength;
-  sizing.minEdgeLength = std::min(phi.resolution(), options.edgeLength);
+  const double smallest = options.minEdgeLength > 0 ? options.minEdgeLength : phi.resolution();
+  sizing.minEdgeLength = std::min(smallest, options.edgeLength);
   sizing.curvature = options.curvature;
+  sizing.tolerance = options.tolerance;
   if (options.curvature <= 0) sizing.thickness = 0;
   sizing.levels = options.levels;
   return sizing;

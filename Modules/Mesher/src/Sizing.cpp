@@ -101,7 +101,7 @@ class NearCubes {
 struct Wishes {
   std::vector<std::pair<int, BccTet>> tets;  ///< to be refined, coarse to fine along every branch
   std::int64_t surface = 0;                  ///< tets of the surface level that the surface passes
-  std::int64_t finer = 0;                    ///< those of them that curvature or thickness want finer
+  std::int64_t finer = 0;                    ///< those of them that the rules want finer
   bool mostFiner() const { return static_cast<double>(finer) > kWholesale * static_cast<double>(surface); }
 };
 
@@ -142,7 +142,7 @@ class Refiner {
     return finer;
   }
 
-  /// Curvature and thickness at the point of the surface below the centre of a tet.
+  /// Curvature, tolerance and thickness at the point of the surface below the centre of a tet.
   bool tooCoarse(double cube, const Eigen::Vector3d& centre, double phi) const {
     Eigen::Vector3d gradient;
     phi_.valueAndGradient(centre, gradient);
@@ -154,8 +154,26 @@ class Refiner {
       const double depth = (options_.thickness - kThinDepth) * cube;
       if (phi_.value(foot - depth * normal) > -kThinDepth * cube) return true;
     }
-    return options_.curvature > 0 &&
-           cube * principalCurvatures(phi_, foot, phi_.resolution()).magnitude() > options_.curvature;
+    if (options_.curvature <= 0 && options_.tolerance <= 0) return false;
+    // Smaller cubes than the samples would follow nothing but the corners of the interpolant.
+    if (0.5 * cube < phi_.resolution() * (1 - 1e-9)) return false;
+    if (options_.curvature > 0 &&
+        cube * principalCurvatures(phi_, foot, phi_.resolution()).magnitude() > options_.curvature)
+      return true;
+    return options_.tolerance > 0 && sag(cube, foot, normal) > options_.tolerance;
+  }
+
+  /// How far an edge of length h leaves the surface, h^2 k / 8 for the larger principal curvature k: half the
+  /// second difference of phi over the edge in the tangent plane. Ripples that are shorter add their height
+  /// only.
+  double sag(double h, const Eigen::Vector3d& foot, const Eigen::Vector3d& normal) const {
+    const Eigen::Vector3d u = normal.unitOrthogonal(), v = normal.cross(u);
+    const double phi = phi_.value(foot);
+    const auto along = [&](const Eigen::Vector3d& t) {
+      return (phi_.value(foot + 0.5 * h * t) + phi_.value(foot - 0.5 * h * t)) / 2 - phi;
+    };
+    const double a = along(u), c = along(v), b = along((u + v) * std::sqrt(0.5)) - (a + c) / 2;
+    return std::abs(a + c) / 2 + std::hypot((a - c) / 2, b);
   }
 
   Eigen::Vector3d centreOf(int level, const BccTet& tet) const {
@@ -181,7 +199,7 @@ LatticePlan planLattice(const SignedDistance& phi, const SizingOptions& options)
   while (std::ldexp(options.edgeLength, -finer - 1) >= options.minEdgeLength * (1 - 1e-9) &&
          finer < kMostFiner)
     ++finer;
-  if (options.curvature <= 0 && options.thickness <= 0) finer = 0;
+  if (options.curvature <= 0 && options.tolerance <= 0 && options.thickness <= 0) finer = 0;
   if (options.levels > 0) {
     coarser = std::min(coarser, options.levels - 1);
     finer = std::min(finer, options.levels - 1 - coarser);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -19,6 +20,9 @@ constexpr double kRounding = 1e-12;
 constexpr double kDegreeRounding = 1e-11;
 
 double degrees(double radians) { return radians * 180 / M_PI; }
+
+constexpr std::vector<RankedTet> MeshQuality::*kRankings[]{
+    &MeshQuality::largestAspectRatios, &MeshQuality::smallestDihedrals, &MeshQuality::largestDihedrals};
 
 TEST(TetQuality, RegularTet) {
   const TetQuality q = tetQuality({1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1});
@@ -94,7 +98,6 @@ TEST(MeshQuality, OfABccBlock) {
   EXPECT_NEAR(q.maxOverMinEdge, 2 / std::sqrt(3.0), kRounding);
   EXPECT_NEAR(q.volume, static_cast<double>(q.tets) / 12, 1e-10);
   EXPECT_EQ(q.inverted, 0);
-  EXPECT_EQ(q.worstTet, 0);
 }
 
 TEST(MeshQuality, FindsTheWorstAndTheInverted) {
@@ -105,7 +108,7 @@ TEST(MeshQuality, FindsTheWorstAndTheInverted) {
                    {cornerOfACube, cornerOfACube + 1, cornerOfACube + 2, cornerOfACube + 3});
   std::swap(mesh.tets[7][0], mesh.tets[7][1]);
   const MeshQuality q = meshQuality(mesh);
-  EXPECT_EQ(q.worstTet, 5);
+  EXPECT_EQ(q.largestAspectRatios[0].tet, 5);
   EXPECT_NEAR(q.maxAspectRatio, std::sqrt(6.0), kRounding);
   EXPECT_EQ(q.inverted, 1);
 }
@@ -116,7 +119,7 @@ TEST(MeshQuality, AFlatTetCountsAsInvertedAndLeavesTheMean) {
   mesh.tets = {{0, 1, 2, 3}, {0, 1, 4, 2}};
   const MeshQuality q = meshQuality(mesh);
   EXPECT_EQ(q.inverted, 1);
-  EXPECT_EQ(q.worstTet, 1);
+  EXPECT_EQ(q.largestAspectRatios[0].tet, 1);
   EXPECT_TRUE(std::isinf(q.maxAspectRatio));
   EXPECT_NEAR(q.meanAspectRatio, std::sqrt(6.0), kRounding);
 }
@@ -125,7 +128,7 @@ TEST(MeshQuality, OfNothingIsZero) {
   const MeshQuality q = meshQuality({});
   EXPECT_EQ(q.tets, 0);
   EXPECT_EQ(q.maxAspectRatio, 0);
-  EXPECT_EQ(q.worstTet, -1);
+  EXPECT_TRUE(q.largestAspectRatios.empty());
 }
 
 TEST(MeshQuality, SameBitsForAnyNumberOfThreads) {
@@ -141,7 +144,61 @@ TEST(MeshQuality, SameBitsForAnyNumberOfThreads) {
   EXPECT_GT(one.tets, 10000);
   EXPECT_EQ(one.meanAspectRatio, four.meanAspectRatio);
   EXPECT_EQ(one.volume, four.volume);
-  EXPECT_EQ(one.worstTet, four.worstTet);
+  for (const auto list : kRankings)
+    for (std::size_t i = 0; i < kRankedTets; ++i) {
+      EXPECT_EQ((one.*list)[i].tet, (four.*list)[i].tet);
+      EXPECT_EQ((one.*list)[i].value, (four.*list)[i].value);
+    }
+}
+
+TEST(MeshQuality, RanksLikeAStableSortOfAllTets) {
+  TetMesh mesh = test::bccBlock({9, 9, 9});
+  std::mt19937 random(8);
+  // The nodes of one half stay, so that many tets are equal.
+  for (std::size_t n = 0; n < mesh.nodes.size() / 2; ++n)
+    for (double& x : mesh.nodes[n]) x += 0.1 * double(random()) / 4294967296.0;
+  const MeshQuality q = meshQuality(mesh);
+  const auto expectRanking = [&](const std::vector<RankedTet>& found, double TetQuality::*measure,
+                                 double sign) {
+    std::vector<RankedTet> all;
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+      const auto& [a, b, c, d] = mesh.tets[t];
+      all.push_back(
+          {std::int64_t(t), tetQuality(mesh.nodes[a], mesh.nodes[b], mesh.nodes[c], mesh.nodes[d]).*measure});
+    }
+    std::stable_sort(all.begin(), all.end(),
+                     [&](const RankedTet& l, const RankedTet& r) { return sign * l.value > sign * r.value; });
+    ASSERT_EQ(found.size(), kRankedTets);
+    for (std::size_t i = 0; i < kRankedTets; ++i) {
+      EXPECT_EQ(found[i].tet, all[i].tet) << i;
+      EXPECT_EQ(found[i].value, all[i].value) << i;
+    }
+  };
+  expectRanking(q.largestAspectRatios, &TetQuality::aspectRatio, 1);
+  expectRanking(q.smallestDihedrals, &TetQuality::minDihedralDeg, -1);
+  expectRanking(q.largestDihedrals, &TetQuality::maxDihedralDeg, 1);
+  EXPECT_EQ(q.largestAspectRatios[0].value, q.maxAspectRatio);
+}
+
+TEST(MeshQuality, RanksNoMoreThanThereAre) {
+  TetMesh mesh;
+  mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  mesh.tets = {{0, 1, 2, 3}, {0, 1, 2, 3}};
+  const MeshQuality q = meshQuality(mesh);
+  for (const auto list : kRankings) {
+    ASSERT_EQ((q.*list).size(), 2u);
+    EXPECT_EQ((q.*list)[0].tet, 0) << "the first of equals";
+    EXPECT_EQ((q.*list)[1].tet, 1);
+  }
+}
+
+TEST(DihedralAngles, LieAtTheEdgesOppositeToTheirNumber) {
+  // A corner of a cube: right angles at the three edges of the corner, acos(1 / sqrt 3) at the others.
+  const std::array<double, 6> angles = dihedralAnglesDeg({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1});
+  for (int e = 0; e < 6; ++e) {
+    const bool atCorner = kTetEdges[5 - e][0] == 0;
+    EXPECT_NEAR(angles[e], atCorner ? 90 : degrees(std::acos(1 / std::sqrt(3.0))), kDegreeRounding) << e;
+  }
 }
 
 }  // namespace

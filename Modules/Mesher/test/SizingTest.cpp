@@ -220,6 +220,24 @@ TEST(Sizing, ThinWallsAreRefinedUntilTheyHoldEnoughCubes) {
   EXPECT_EQ(levelsAtTheSurface(shell(0.5), options), Levels(0, 0));
 }
 
+TEST(Sizing, OnlyThicknessGoesBelowTheResolution) {
+  const SizingOptions strict{.edgeLength = 1,
+                             .maxEdgeLength = 4,
+                             .minEdgeLength = 0.25,
+                             .curvature = 0.01,
+                             .tolerance = 1e-6,
+                             .thickness = 0};
+  using Levels = std::pair<int, int>;
+  const test::AnalyticSphere ball(Vector3d::Zero(), 4, {.resolution = 0.5});
+  EXPECT_EQ(levelsAtTheSurface(ball, strict), Levels(1, 1));
+  const test::AnalyticDifference shell(std::make_shared<test::AnalyticSphere>(Vector3d::Zero(), 4.4),
+                                       std::make_shared<test::AnalyticSphere>(Vector3d::Zero(), 4),
+                                       AnalyticOptions{.resolution = 0.5});
+  SizingOptions thin = strict;
+  thin.thickness = 1.6;
+  EXPECT_EQ(levelsAtTheSurface(shell, thin), Levels(2, 2));
+}
+
 TEST(Sizing, ASurfaceThatAsksInManyPlacesIsRefinedAsAWhole) {
   // Edges and corners take up most of a small box, little of a large one.
   const SizingOptions options{
@@ -229,6 +247,23 @@ TEST(Sizing, ASurfaceThatAsksInManyPlacesIsRefinedAsAWhole) {
   using Levels = std::pair<int, int>;
   EXPECT_EQ(levelsAtTheSurface(small, options), Levels(1, 1));
   EXPECT_EQ(levelsAtTheSurface(large, options), Levels(0, 1));
+}
+
+TEST(Sizing, ToleranceBoundsTheSagOfAnEdge) {
+  // h^2 k / 8 on a sphere of radius 8 mm: 0.0625, 0.0156 and 0.0039 mm for cubes of 2, 1 and 0.5 mm.
+  const test::AnalyticSphere sphere(Vector3d::Zero(), 8, {.resolution = 0.1});
+  SizingOptions options{
+      .edgeLength = 2, .maxEdgeLength = 4, .minEdgeLength = 0.5, .curvature = 0, .thickness = 0};
+  const auto levelsWithin = [&](double tolerance) {
+    options.tolerance = tolerance;
+    return levelsAtTheSurface(sphere, options);
+  };
+  using Levels = std::pair<int, int>;
+  EXPECT_EQ(levelsWithin(0), Levels(0, 0));
+  EXPECT_EQ(levelsWithin(0.07), Levels(0, 0));
+  EXPECT_EQ(levelsWithin(0.05), Levels(1, 1));
+  EXPECT_EQ(levelsWithin(0.01), Levels(2, 2));
+  EXPECT_EQ(levelsWithin(0.0001), Levels(2, 2)) << "minEdgeLength";
 }
 
 TEST(Sizing, LevelsOptionCapsTheRefinement) {

@@ -2,6 +2,7 @@
 
 #include "LevelSetSurface.h"
 #include "MeasureFidelity.h"
+#include "WorstElements.h"
 #include "sinew/MeshIO/VtuFile.h"
 #include "sinew/Pipeline/FileNames.h"
 #include "sinew/Pipeline/SelectTissues.h"
@@ -16,6 +17,8 @@ MeshAssessment assess(const std::filesystem::path& file, const TetMesh& mesh, co
   MeshAssessment assessment;
   assessment.file = file.string();
   assessment.quality = meshQuality(mesh);
+  assessment.worst = worstElements(mesh, assessment.quality);
+  assessment.histogram = qualityHistogram(mesh);
   assessment.conditions = meshConditions(mesh, boundary);
   assessment.topology = meshTopology(mesh, boundary);
   return assessment;

@@ -1,8 +1,13 @@
 #include "MeshOneTissue.h"
 
+#include "EdgeLengthSearch.h"
 #include "LevelSetSurface.h"
 #include "MeasureFidelity.h"
 #include "OffsetSurface.h"
+#include "QualityArrays.h"
+#include "UnderResolution.h"
+#include "VolumeOffset.h"
+#include "WorstElements.h"
 #include "sinew/MeshIO/VtuFile.h"
 #include "sinew/Pipeline/Memory.h"
 #include "sinew/Pipeline/OutputFile.h"
@@ -20,7 +25,8 @@ namespace sinew {
 namespace {
 
 /// Fractions of a tissue's work done at the end of each stage, for the progress bar.
-constexpr double kAfterLevelSet = 0.2, kAfterMesh = 0.9, kAfterMeasure = 0.97;
+constexpr double kAfterMesh = 0.9, kAfterMeasure = 0.97;
+constexpr double kLevelSetShare = 0.22;  // of the work for a mesh
 
 class Stopwatch {
  public:
@@ -77,7 +83,7 @@ class TissueRun {
     report_.name = tissue_.name;
     report_.label = tissue_.label;
     report_.layer = tissue_.layer;
-    report_.edgeLength = job.sizes.edge;
+    report_.edgeLength = job.plan.sizes.edge;
   }
 
   void run(const std::filesystem::path& folder) {
@@ -88,7 +94,8 @@ class TissueRun {
     if (!wrong.empty()) throw std::runtime_error("the mesh is unsound and was not written: " + wrong);
     advance("writing", kAfterMeasure);
     OutputFile output(folder / job_.file);
-    writeVtu(mesh, output.temporary());
+    writeVtu(mesh, output.temporary(),
+             options_.withQuality ? qualityArrays(mesh, *surface_, frame_) : MeshArrays{});
     output.commit();
     lap("writing");
     report_.file = job_.file;
@@ -104,36 +111,109 @@ class TissueRun {
  private:
   /// The mesh in LPS; leaves the level set behind for measure().
   TetMesh generate() {
-    advance("level set", 0);
-    LevelSet levelSet = levelSetFromLabels(segmentation_, tissue_, job_.levelSet, &volumes_);
-    frame_ = levelSet.frame;
-    surface_ = std::make_unique<LevelSetSurface>(levelSet);
-    levelSet.grid.reset();
-    lap("level set");
-
-    GenerateTetMeshOptions options;
-    options.edgeLength = job_.sizes.edge;
-    options.maxEdgeLength = job_.sizes.largest;
-    options.curvature = options_.curvature;
-    options.levels = options_.levels;
-    options.label = tissue_.label;
-    options.progress = [this](std::string_view stage, double fraction) {
-      advance(std::string(stage), kAfterLevelSet + fraction * (kAfterMesh - kAfterLevelSet));
-    };
-    const double memory = estimateMemory(*surface_, options);
-    if (memory > availableMemory_)
-      throw std::runtime_error("the mesh would take about " + formatBytes(memory) + " of memory, but " +
-                               formatBytes(availableMemory_) + " is available; use a larger edge length");
-    advance("lattice", kAfterLevelSet);
-    TetMesh mesh = generateOn(*surface_, options);
-    surfaceOffset_ = offsetForVolume(mesh);
-    if (surfaceOffset_ > 0) {
-      options.progress = [this](std::string_view, double) { advance("keeping the volume", kAfterMesh); };
-      mesh = generateOn(OffsetSurface(*surface_, surfaceOffset_), options);
-    }
+    Attempt attempt = job_.searchSize ? searchEdgeLength() : attemptWith(job_.plan, kAfterMesh);
+    TetMesh mesh = keepVolume(std::move(attempt));
     watch_.lap();
     for (Eigen::Vector3d& node : mesh.nodes) node = frame_ * node;
     return mesh;
+  }
+
+  /// A mesh in the level set's frame, and what it was made from.
+  struct Attempt {
+    TissuePlan plan;
+    LevelSetFromLabelsReport volumes;
+    Eigen::Isometry3d frame;
+    std::unique_ptr<LevelSetSurface> surface;
+    TetMesh mesh;
+  };
+
+  /// @param share  of the tissue's work, for the progress
+  Attempt attemptWith(const TissuePlan& plan, double share) {
+    Attempt attempt;
+    attempt.plan = plan;
+    advance("level set", done_);
+    {
+      const LevelSet levelSet = levelSetFromLabels(segmentation_, tissue_, plan.levelSet, &attempt.volumes);
+      attempt.frame = levelSet.frame;
+      attempt.surface = std::make_unique<LevelSetSurface>(levelSet);
+    }
+    lap("level set");
+    const double first = done_ + share * kLevelSetShare, last = done_ + share;
+    GenerateTetMeshOptions options = mesherOptions(plan);
+    options.progress = [&](std::string_view stage, double fraction) {
+      advance(std::string(stage), first + fraction * (last - first));
+    };
+    const double memory = estimateMemory(*attempt.surface, options);
+    if (memory > availableMemory_)
+      throw std::runtime_error("the mesh would take about " + formatBytes(memory) + " of memory, but " +
+                               formatBytes(availableMemory_) + " is available; use a larger edge length");
+    advance("lattice", first);
+    attempt.mesh = generateOn(*attempt.surface, options);
+    watch_.lap();
+    done_ = last;
+    return attempt;
+  }
+
+  /// Meshes until one has the wanted number of tets; the best one.
+  Attempt searchEdgeLength() {
+    const double share = kAfterMesh / kMostSizeTrials;
+    std::vector<SizeTrial> trials;
+    Attempt best;
+    std::optional<double> edge = job_.plan.sizes.edge;
+    while (edge) {
+      const TissuePlan plan = planTrial(segmentation_, tissue_, *edge, options_);
+      const bool tried = std::ranges::count(trials, plan.sizes.edge, &SizeTrial::edge) > 0;
+      if (tried) break;  // the tissue allows no larger edge length
+      Attempt attempt;
+      try {
+        attempt = attemptWith(plan, share);
+      } catch (const std::runtime_error&) {
+        if (trials.empty()) throw;
+        break;  // too much memory, or no mesh at this edge length: what was found before stands
+      }
+      trials.push_back({plan.sizes.edge, std::ssize(attempt.mesh.tets)});
+      if (bestTrial(trials, options_.targetTets) + 1 == trials.size()) best = std::move(attempt);
+      edge = nextEdgeLength(trials, options_.targetTets);
+    }
+    return best;
+  }
+
+  /// Moves the target surface as far as the volume asks; the best mesh. Leaves the level set behind.
+  TetMesh keepVolume(Attempt attempt) {
+    volumes_ = attempt.volumes;
+    frame_ = attempt.frame;
+    surface_ = std::move(attempt.surface);
+    plan_ = attempt.plan;
+    report_.edgeLength = plan_.sizes.edge;
+    report_.minEdgeLength = plan_.sizes.smallest;
+    TetMesh best = std::move(attempt.mesh);
+    if (best.tets.empty()) return best;
+
+    const VolumeRule& rule = options_.preserveVolume ? kExactVolume : kNoticeableVolume;
+    GenerateTetMeshOptions options = mesherOptions(plan_);
+    options.progress = [this](std::string_view, double) { advance("keeping the volume", kAfterMesh); };
+    const double wanted = volumes_.levelSetVolume, area = boundaryArea(best);
+    std::vector<OffsetTrial> trials{{0, meshVolume(best)}};
+    while (const auto offset = nextOffset(trials, wanted, area, plan_.sizes.edge, rule)) {
+      TetMesh mesh = generateOn(OffsetSurface(*surface_, *offset), options);
+      trials.push_back({*offset, meshVolume(mesh)});
+      if (bestTrial(trials, wanted) + 1 == trials.size()) best = std::move(mesh);
+    }
+    surfaceOffset_ = trials[bestTrial(trials, wanted)].offset;
+    return best;
+  }
+
+  GenerateTetMeshOptions mesherOptions(const TissuePlan& plan) const {
+    const double voxel = segmentation_.geometry.meanSpacing();
+    GenerateTetMeshOptions options;
+    options.edgeLength = plan.sizes.edge;
+    options.maxEdgeLength = plan.sizes.largest;
+    options.minEdgeLength = plan.sizes.smallest;
+    options.curvature = options_.curvature;
+    options.tolerance = options_.tolerance.millimetres(voxel);
+    options.levels = options_.levels;
+    options.label = tissue_.label;
+    return options;
   }
 
   TetMesh generateOn(const SignedDistance& surface, const GenerateTetMeshOptions& options) {
@@ -143,19 +223,10 @@ class TissueRun {
     return mesh;
   }
 
-  /// Flat triangles cut off what is round: where a mesh misses a noticeable part of the volume, its target is
-  /// moved outwards by what is missing over its area, mm.
-  double offsetForVolume(const TetMesh& mesh) const {
-    constexpr double kNoticeable = 0.01;     // of the volume
-    constexpr double kLargestOffset = 0.05;  // edge lengths
-    const double missing = volumes_.levelSetVolume - meshVolume(mesh);
-    if (mesh.tets.empty() || missing <= kNoticeable * volumes_.levelSetVolume) return 0;
-    return std::min(missing / boundaryArea(mesh), kLargestOffset * job_.sizes.edge);
-  }
-
   void measure(const TetMesh& mesh) {
     advance("measuring", kAfterMesh);
     report_.quality = meshQuality(mesh);
+    report_.worst = worstElements(mesh, report_.quality);
     const MeshBoundary boundary = meshBoundary(mesh);
     report_.conditions = meshConditions(mesh, boundary);
     report_.topology = meshTopology(mesh, boundary);
@@ -168,7 +239,7 @@ class TissueRun {
     report_.fidelity = fidelity.fidelity;
     report_.fidelity.surfaceOffset = surfaceOffset_;
     report_.lost = fidelity.lost;
-    surface_.reset();
+    if (!options_.withQuality) surface_.reset();
     lap("measuring");
   }
 
@@ -179,27 +250,37 @@ class TissueRun {
     report_.lost.components =
         static_cast<std::int64_t>(labelComponents(segmentation_, tissue_).voxels.size());
     report_.lost.volume = volumes_.labelVolume;
-    report_.message = "too small for the lattice: " + std::to_string(tissue_.voxels) + " voxels, " +
-                      number(volumes_.labelVolume) + " mm^3, at edge length " + number(job_.sizes.edge) +
-                      " mm; a smaller --size may keep it";
+    report_.message =
+        "too small for the lattice: " + std::to_string(tissue_.voxels) + " voxels, " +
+        number(volumes_.labelVolume) + " mm^3, at edge length " + number(plan_.sizes.edge) + " mm; try " +
+        sizeOption(tissue_.name, std::min(plan_.sizes.edge / 2, std::cbrt(volumes_.labelVolume) / 3));
   }
 
   std::string warning() const {
-    constexpr double kLargeVolumeError = 0.2;
-    std::vector<std::string> parts;
-    if (job_.sizeReduced)
-      parts.push_back("edge length reduced to " + number(job_.sizes.edge) +
-                      " mm, to fit the tissue");
-    const double ratio = report_.fidelity.volume / report_.fidelity.labelVolume;
-    if (std::abs(ratio - 1) > kLargeVolumeError)
-      parts.push_back("volume is " + number(100 * ratio) + " % of the label's; a smaller --size may help");
-    if (report_.lost.components > 0)
-      parts.push_back(std::to_string(report_.lost.components) +
-                      (report_.lost.components == 1 ? " piece" : " pieces") + " of " +
-                      number(report_.lost.volume) + " mm^3 in all too small to keep");
     std::string text;
-    for (const std::string& part : parts) text += (text.empty() ? "" : "; ") + part;
+    const auto add = [&](const std::string& part) {
+      if (!part.empty()) text += (text.empty() ? "" : "; ") + part;
+    };
+    if (plan_.sizeReduced && !job_.searchSize)
+      add("edge length reduced to " + number(plan_.sizes.edge) + " mm, to fit the tissue");
+    if (job_.searchSize && !hasTets(report_.quality.tets, options_.targetTets))
+      add(std::to_string(report_.quality.tets) + " tets at edge length " + number(plan_.sizes.edge) +
+          " mm are as near as the search came to " + std::to_string(options_.targetTets));
+    add(underResolution(report_));
+    add(volumeWarning());
     return text;
+  }
+
+  std::string volumeWarning() const {
+    constexpr double kLargeSmoothingError = 0.2;
+    const Fidelity& fidelity = report_.fidelity;
+    const double error = std::abs(fidelity.volume / fidelity.levelSetVolume - 1);
+    if (options_.preserveVolume && error > kExactVolume.tolerance)
+      return "the volume could only be brought within " + number(100 * error) + " %";
+    if (std::abs(fidelity.levelSetVolume / fidelity.labelVolume - 1) > kLargeSmoothingError)
+      return "volume is " + number(100 * fidelity.volume / fidelity.labelVolume) +
+             " % of the label's; a smaller --smoothing may help";
+    return "";
   }
 
   void lap(const std::string& stage) { addSeconds(stage, watch_.lap()); }
@@ -219,6 +300,8 @@ class TissueRun {
   double availableMemory_;
   ProgressSum& progress_;
   Stopwatch watch_;
+  double done_ = 0;  ///< of the tissue's work, so far
+  TissuePlan plan_;
   Eigen::Isometry3d frame_;
   double surfaceOffset_ = 0;
   LevelSetFromLabelsReport volumes_;

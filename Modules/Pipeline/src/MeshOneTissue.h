@@ -1,7 +1,7 @@
 #pragma once
 
 #include "ProgressSum.h"
-#include "TissueCost.h"
+#include "TissuePlan.h"
 #include "sinew/Pipeline/MeshTissues.h"
 
 namespace sinew {
@@ -11,9 +11,8 @@ struct TissueJob {
   std::size_t slot = 0;  ///< place in the list of reports
   int tissue = 0;        ///< index into the segmentation's table
   std::string file;      ///< name inside the output folder
-  TissueSizes sizes;
-  bool sizeReduced = false;  ///< the wanted edge length was larger than the tissue
-  LevelSetFromLabelsOptions levelSet;
+  TissuePlan plan;
+  bool searchSize = false;  ///< the plan is only where the search for the wanted number of tets begins
   TissueCost cost;
 };
 

@@ -1,5 +1,6 @@
 #include "sinew/Pipeline/MeshTissues.h"
 
+#include "EdgeLengthSearch.h"
 #include "MeshOneTissue.h"
 #include "ProgressSum.h"
 #include "TissueCost.h"
@@ -29,21 +30,35 @@ double checkedLength(Length length, double voxel, const std::string& what) {
   return mm;
 }
 
+void checkNotNegative(Length length, const std::string& what) {
+  if (!(length.value >= 0))
+    throw std::invalid_argument(what + " is " + toString(length) + ", but must not be negative");
+}
+
+/// The edge length that a tissue is to have, mm.
+struct WantedSize {
+  double edge;
+  bool own;  ///< asked for by name
+};
+
 /// The sizes of every tissue, with the wishes of the user resolved.
-std::vector<TissueSizes> resolveSizes(const Segmentation& segmentation, const MeshTissuesOptions& options) {
+std::vector<WantedSize> resolveSizes(const Segmentation& segmentation, const MeshTissuesOptions& options) {
   const double voxel = segmentation.geometry.meanSpacing();
-  std::vector<double> edges(segmentation.tissues.size(),
-                            checkedLength(options.edgeLength, voxel, "the edge length"));
+  std::vector<WantedSize> wanted(segmentation.tissues.size(),
+                                 {checkedLength(options.edgeLength, voxel, "the edge length"), false});
   for (const auto& [wish, length] : options.sizes)
     for (const int tissue : selectTissues(segmentation, {wish}))
-      edges[tissue] = checkedLength(length, voxel, "the edge length of '" + wish + "'");
-  const double maximum = options.maxEdgeLength.millimetres(voxel);
-  if (!(maximum >= 0))
-    throw std::invalid_argument("the largest edge length is " + toString(options.maxEdgeLength) +
+      wanted[tissue] = {checkedLength(length, voxel, "the edge length of '" + wish + "'"), true};
+  return wanted;
+}
+
+void checkOptions(const MeshTissuesOptions& options) {
+  checkNotNegative(options.maxEdgeLength, "the largest edge length");
+  checkNotNegative(options.minEdgeLength, "the smallest edge length");
+  checkNotNegative(options.tolerance, "the tolerance");
+  if (options.targetTets < 0)
+    throw std::invalid_argument("the number of tets is " + std::to_string(options.targetTets) +
                                 ", but must not be negative");
-  std::vector<TissueSizes> sizes;
-  for (const double edge : edges) sizes.push_back({edge, maximum > 0 ? std::max(maximum, edge) : 8 * edge});
-  return sizes;
 }
 
 /// How many tissues may be in flight, when the largest come first.
@@ -53,12 +68,12 @@ int tissuesInFlight(const Segmentation& segmentation, const std::vector<TissueJo
   const Tissue& tissue = segmentation.tissues[largest.tissue];
   if (largest.cost.memory > available) {
     const double fitting =
-        std::ceil(100 * largest.sizes.edge * std::sqrt(largest.cost.memory / available)) / 100;
+        std::ceil(100 * largest.plan.sizes.edge * std::sqrt(largest.cost.memory / available)) / 100;
     const std::string remedy = largest.cost.ofVoxels > available / 2
                                    ? "; use a smaller edge length"
                                    : "; use " + toString(fitting) + " or more";
     throw std::invalid_argument(segmentation.source + ": '" + tissue.name + "' at edge length " +
-                                toString(largest.sizes.edge) + " would take about " +
+                                toString(largest.plan.sizes.edge) + " would take about " +
                                 formatBytes(largest.cost.memory) + " of memory, but " +
                                 formatBytes(available) + " is available" + remedy);
   }
@@ -73,56 +88,26 @@ int tissuesInFlight(const Segmentation& segmentation, const std::vector<TissueJo
   return count;
 }
 
-/// How large a tissue is, mm.
-struct Extent {
-  double largest;  ///< longest side of its box
-  double mean;     ///< side of the cube of its volume
-};
-
-Extent extentOf(const ImageGeometry& geometry, const Tissue& tissue) {
-  const Eigen::Vector3d sides =
-      (tissue.box.upper - tissue.box.lower).cast<double>().cwiseProduct(geometry.spacing);
-  return {sides.maxCoeff(), std::cbrt(static_cast<double>(tissue.voxels) * geometry.voxelVolume())};
-}
-
-/// A cube larger than the tissue stands for nothing. Who asks for cubes of two voxels or less, as by default,
-/// wants to see specks too: they get three cubes along their mean extent.
-TissueSizes fittingSizes(const Extent& extent, double voxel, const TissueSizes& wanted) {
-  constexpr double kFineVoxels = 2 * (1 + 1e-9), kCubesAlong = 3;
-  const double edge =
-      std::min(wanted.edge, wanted.edge <= kFineVoxels * voxel ? extent.mean / kCubesAlong : extent.largest);
-  return {edge, std::max(edge, std::min(wanted.largest, extent.largest))};
-}
-
-/// The mesher looks for the surface up to 1.55 edge lengths away; samples much finer than the lattice buy
-/// nothing, but a speck is sampled more finely than its voxels.
-LevelSetFromLabelsOptions levelSetOptions(const ImageGeometry& geometry, double meanExtent, double edgeLength,
-                                          LevelSetFromLabelsOptions options) {
-  constexpr double kBandEdges = 1.6, kSamplesPerEdge = 5, kSamplesAlong = 12, kFinestSpeck = 1.0 / 3;
-  const double voxel = defaultGridSpacing(geometry);
-  if (options.gridSpacing <= 0)
-    options.gridSpacing = std::max(
-        {edgeLength / kSamplesPerEdge, kFinestSpeck * voxel, std::min(voxel, meanExtent / kSamplesAlong)});
-  options.bandVoxels = std::max(options.bandVoxels, kBandEdges * edgeLength / options.gridSpacing);
-  return options;
-}
-
-TissueJob makeJob(const Segmentation& segmentation, int index, const TissueSizes& wanted,
+TissueJob makeJob(const Segmentation& segmentation, int index, const WantedSize& wanted,
                   const MeshTissuesOptions& options) {
   const Tissue& tissue = segmentation.tissues[index];
   TissueJob job;
   job.tissue = index;
-  const Extent extent = extentOf(segmentation.geometry, tissue);
-  job.sizes = fittingSizes(extent, segmentation.geometry.meanSpacing(), wanted);
-  job.sizeReduced = job.sizes.edge < wanted.edge;
-  job.levelSet = levelSetOptions(segmentation.geometry, extent.mean, job.sizes.edge, options.levelSet);
-  job.cost = estimateCost(segmentation, tissue, job.sizes, job.levelSet);
+  job.searchSize = options.targetTets > 0 && !wanted.own;
+  const double volume = static_cast<double>(tissue.voxels) * segmentation.geometry.voxelVolume();
+  const auto firstTrial = [&] {
+    return firstEdgeLength(surfaceArea(segmentation, tissue), volume, options.targetTets);
+  };
+  job.plan = job.searchSize ? planTrial(segmentation, tissue, firstTrial(), options)
+                            : planTissue(segmentation, tissue, wanted.edge, options);
+  job.cost = estimateCost(segmentation, tissue, job.plan.sizes, job.plan.levelSet);
   return job;
 }
 
 std::vector<TissueJob> jobsLargestFirst(const Segmentation& segmentation, const std::vector<int>& tissues,
                                         const MeshTissuesOptions& options) {
-  const std::vector<TissueSizes> sizes = resolveSizes(segmentation, options);
+  checkOptions(options);
+  const std::vector<WantedSize> sizes = resolveSizes(segmentation, options);
   const std::vector<std::string> stems = tissueFileStems(segmentation.tissues);
   std::vector<TissueJob> jobs(tissues.size());
   tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t j) {

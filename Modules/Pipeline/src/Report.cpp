@@ -50,6 +50,31 @@ Json toJsonObject(const LostPieces& lost) {
   return {{"components", lost.components}, {"volume_mm3", lost.volume}};
 }
 
+Json toArray(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+Json toJsonArray(const std::vector<WorstElement>& worst) {
+  Json list = Json::array();
+  for (const WorstElement& element : worst)
+    list.push_back({{"measure", element.measure},
+                    {"element", element.element},
+                    {"value", element.value},
+                    {"place_mm", toArray(element.place)}});
+  return list;
+}
+
+/// Bins by their lower ends.
+template <class Counts>
+Json toJsonObject(const Json& from, const Counts& counts) {
+  return {{"from", from}, {"counts", counts}};
+}
+
+Json toJsonObject(const QualityHistogram& histogram) {
+  Json degrees = Json::array();
+  for (std::size_t bin = 0; bin < kDihedralBins; ++bin) degrees.push_back(kDihedralBinDeg * double(bin));
+  return {{"dihedral_deg", toJsonObject(degrees, histogram.dihedrals)},
+          {"aspect_ratio", toJsonObject(kAspectRatioBins, histogram.aspectRatios)}};
+}
+
 Json toJsonObject(const TissueReport& report) {
   Json seconds = Json::object();
   for (const auto& [stage, time] : report.seconds) seconds[stage] = time;
@@ -63,10 +88,12 @@ Json toJsonObject(const TissueReport& report) {
           {"status", toString(report.status)},
           {"message", report.message},
           {"edge_length_mm", report.edgeLength},
+          {"min_edge_length_mm", report.minEdgeLength},
           {"seconds", seconds},
           {"tets", report.quality.tets},
           {"nodes", report.quality.nodes},
           {"quality", toJsonObject(report.quality)},
+          {"worst", toJsonArray(report.worst)},
           {"conditions", toJsonObject(report.conditions)},
           {"topology", topology},
           {"fidelity", toJsonObject(report.fidelity)},
@@ -80,10 +107,15 @@ Json toJsonObject(const MeshTissuesOptions& options, double voxel) {
   const double largest = options.maxEdgeLength.millimetres(voxel);
   return {{"edge_length_mm", edge},
           {"max_edge_length_mm", largest > 0 ? largest : 8 * edge},
+          {"min_edge_length_mm", options.minEdgeLength.millimetres(voxel)},
           {"sizes_mm", sizes},
+          {"target_tets", options.targetTets},
           {"curvature", options.curvature},
+          {"tolerance_mm", options.tolerance.millimetres(voxel)},
           {"levels", options.levels},
           {"method", "optimization"},
+          {"preserve_volume", options.preserveVolume},
+          {"with_quality", options.withQuality},
           {"smoothing_voxels", options.levelSet.smoothingVoxels},
           {"band_voxels", options.levelSet.bandVoxels},
           {"thick_slice_ratio", options.levelSet.thickSliceRatio},
@@ -104,8 +136,6 @@ Json machine() {
           {"processors", std::thread::hardware_concurrency()},
           {"system", std::string(system.sysname) + " " + system.release + " " + system.machine}};
 }
-
-Json toArray(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 std::string document(const Json& json) {
   // Names may be in any encoding: what is not UTF-8 is replaced, not refused.
@@ -153,6 +183,8 @@ std::string toJson(const std::vector<MeshAssessment>& meshes) {
                {"nodes", mesh.quality.nodes},
                {"volume_mm3", mesh.quality.volume},
                {"quality", toJsonObject(mesh.quality)},
+               {"worst", toJsonArray(mesh.worst)},
+               {"histogram", toJsonObject(mesh.histogram)},
                {"conditions", toJsonObject(mesh.conditions)},
                {"topology", toJsonObject(mesh.topology)}};
     if (mesh.fidelity) {

@@ -41,10 +41,14 @@ double staircaseArea(const Segmentation& segmentation, const Tissue& tissue) {
 
 }  // namespace
 
+double surfaceArea(const Segmentation& segmentation, const Tissue& tissue) {
+  return staircaseArea(segmentation, tissue) / kStaircaseArea;
+}
+
 TissueCost estimateCost(const Segmentation& segmentation, const Tissue& tissue, const TissueSizes& sizes,
                         const LevelSetFromLabelsOptions& levelSet) {
   const ImageGeometry& geometry = segmentation.geometry;
-  const double area = staircaseArea(segmentation, tissue) / kStaircaseArea;
+  const double area = surfaceArea(segmentation, tissue);
   const double volume = static_cast<double>(tissue.voxels) * geometry.voxelVolume();
   const double spacing = levelSet.gridSpacing, band = levelSet.bandVoxels * spacing;
   const Eigen::Array3d extent =

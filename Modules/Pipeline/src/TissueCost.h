@@ -6,8 +6,9 @@
 namespace sinew {
 
 struct TissueSizes {
-  double edge = 0;     ///< cube size at the surface, mm
-  double largest = 0;  ///< deep inside, mm
+  double edge = 0;      ///< cube size at the surface, mm
+  double largest = 0;   ///< deep inside, mm
+  double smallest = 0;  ///< that refinement may make, mm; 0: the level set's spacing
 };
 
 /// What meshing one tissue will take, guessed from its voxels alone.
@@ -16,6 +17,9 @@ struct TissueCost {
   double memory = 0;    ///< bytes, roughly and rather too much
   double ofVoxels = 0;  ///< the part of `memory` for voxels and level set; it grows with the edge length
 };
+
+/// Area of the smooth surface behind the tissue's voxels, mm^2, roughly. Cost: O(box of the tissue).
+double surfaceArea(const Segmentation& segmentation, const Tissue& tissue);
 
 /// @param levelSet  with the grid spacing that will be taken
 /// Cost: O(box of the tissue).

@@ -143,6 +143,105 @@ TEST(MeshTissues, ATissueMayHaveItsOwnSize) {
   EXPECT_EQ(reports[1].edgeLength, 2);
 }
 
+/// The reports of some tissues, whose files nobody keeps.
+std::vector<TissueReport> reportsOf(const std::vector<int>& tissues, const MeshTissuesOptions& options) {
+  const test::TempFolder folder;
+  return meshTissues(ballsAndThread(), tissues, folder.path(), options);
+}
+
+TEST(MeshTissues, TheWantedNumberOfTetsIsMetForEveryTissue) {
+  MeshTissuesOptions options;
+  options.targetTets = 20'000;
+  for (const TissueReport& report : reportsOf({0, 1}, options)) {
+    EXPECT_NEAR(static_cast<double>(report.quality.tets), 20'000, 2000) << report.name;
+    EXPECT_EQ(report.message, "") << report.name;
+  }
+}
+
+TEST(MeshTissues, TheEdgeLengthFoundGivesTheSameMeshAgain) {
+  const test::TempFolder searched, again;
+  MeshTissuesOptions options;
+  options.targetTets = 5000;
+  const TissueReport found = meshTissues(ballsAndThread(), {0}, searched.path(), options).front();
+  options.sizes["ball"] = found.edgeLength;
+  options.minEdgeLength = found.minEdgeLength;
+  const TissueReport report = meshTissues(ballsAndThread(), {0}, again.path(), options).front();
+  EXPECT_EQ(report.edgeLength, found.edgeLength) << "a size of its own goes first";
+  EXPECT_EQ(test::readBytes(searched / "ball.vtu"), test::readBytes(again / "ball.vtu"));
+}
+
+TEST(MeshTissues, ANumberOfTetsThatCannotBeMetIsTold) {
+  MeshTissuesOptions options;
+  options.targetTets = 20;  // a ball cut from cubes of its own extent has more
+  const TissueReport report = reportsOf({0}, options).front();
+  EXPECT_EQ(report.status, TissueStatus::Meshed);
+  EXPECT_NE(report.message.find(" are as near as the search came to 20"), std::string::npos)
+      << report.message;
+}
+
+TEST(MeshTissues, TheVolumeIsPreservedWithinATenthOfAPercent) {
+  MeshTissuesOptions options;
+  options.preserveVolume = true;
+  for (const double edge : {2., 3.}) {
+    options.edgeLength = edge;
+    const TissueReport report = reportsOf({0}, options).front();
+    EXPECT_NEAR(report.fidelity.volume / report.fidelity.levelSetVolume, 1, 0.001) << edge;
+    EXPECT_GT(report.fidelity.surfaceOffset, 0) << "chords lie inside";
+    EXPECT_LT(report.fidelity.surfaceOffset, 0.1 * edge);
+    EXPECT_LT(report.fidelity.maxBoundaryPhi, 1e-3 * edge) << "of the surface that was moved";
+  }
+}
+
+TEST(MeshTissues, AVolumeOutOfReachIsTold) {
+  MeshTissuesOptions options = coarse();
+  options.edgeLength = 1.5 * kBallRadius;  // chords cut off more than a tenth of an edge gives back
+  options.preserveVolume = true;
+  const TissueReport report = reportsOf({0}, options).front();
+  EXPECT_DOUBLE_EQ(report.fidelity.surfaceOffset, 0.1 * 1.5 * kBallRadius);
+  EXPECT_NE(report.message.find("the volume could only be brought within "), std::string::npos)
+      << report.message;
+}
+
+TEST(MeshTissues, AnUnderResolvedTissueIsToldASizeThatHelps) {
+  MeshTissuesOptions options = coarse();
+  options.edgeLength = kBallRadius;
+  const TissueReport report = reportsOf({0}, options).front();
+  ASSERT_TRUE(report.message.starts_with("under-resolved: volume ")) << report.message;
+  ASSERT_TRUE(report.message.ends_with("; try --size 'ball=4.7mm'")) << report.message;
+  options.sizes["ball"] = 4.7;
+  EXPECT_EQ(reportsOf({0}, options).front().message, "");
+  const std::string lost = reportsOf({2}, options).front().message;
+  ASSERT_TRUE(lost.ends_with("; try --size 'thread=0.71mm'")) << lost;
+  options.sizes["thread"] = 0.71;
+  EXPECT_EQ(reportsOf({2}, options).front().status, TissueStatus::Meshed);
+}
+
+TEST(MeshTissues, QualityGoesIntoTheFileOnRequest) {
+  const test::TempFolder folder;
+  MeshTissuesOptions options = coarse();
+  meshTissues(ballsAndThread(), {0}, folder.path(), options);
+  const std::string plain = test::readBytes(folder / "ball.vtu");
+  EXPECT_EQ(plain.find("aspect_ratio"), std::string::npos);
+  options.withQuality = true;
+  meshTissues(ballsAndThread(), {0}, folder.path(), options);
+  const std::string full = test::readBytes(folder / "ball.vtu");
+  for (const char* name : {"aspect_ratio", "min_dihedral_deg", "max_dihedral_deg", "phi"})
+    EXPECT_NE(full.find("type=\"Float32\" Name=\"" + std::string(name) + "\""), std::string::npos) << name;
+}
+
+TEST(MeshTissues, TheWorstTetsAreInTheMeshThatWasWritten) {
+  const test::TempFolder folder;
+  const TissueReport report = meshTissues(ballsAndThread(), {0}, folder.path(), coarse()).front();
+  const TetMesh mesh = readTetMesh(folder / "ball.vtu");
+  ASSERT_EQ(report.worst.size(), 3 * kRankedTets);
+  EXPECT_EQ(report.worst[0].value, report.quality.maxAspectRatio);
+  for (const WorstElement& worst : report.worst) {
+    Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
+    for (const std::int32_t node : mesh.tets[worst.element]) centroid += mesh.nodes[node] / 4;
+    EXPECT_LT((centroid - worst.place).norm(), 1e-12 * worst.place.norm());
+  }
+}
+
 TEST(MeshTissues, OneFailureLeavesTheOthersAlone) {
   const test::TempFolder folder;
   fs::create_directory(folder / "ball.vtu");  // stands in the way of the file
@@ -203,6 +302,15 @@ TEST(MeshTissues, BadSizesAreRefusedBeforeAnyComputing) {
   options = {};
   options.maxEdgeLength = -1;
   EXPECT_NE(messageFor(options).find("largest edge length is -1mm"), std::string::npos);
+  options = {};
+  options.minEdgeLength = Length::voxels(-1);
+  EXPECT_NE(messageFor(options).find("smallest edge length is -1vox"), std::string::npos);
+  options = {};
+  options.tolerance = -0.5;
+  EXPECT_NE(messageFor(options).find("tolerance is -0.5mm"), std::string::npos);
+  options = {};
+  options.targetTets = -1;
+  EXPECT_NE(messageFor(options).find("number of tets is -1"), std::string::npos);
   options = {};
   options.edgeLength = 1e-4;
   const std::string tooSmall = messageFor(options);

@@ -19,6 +19,10 @@ MeshingReport exampleRun() {
   run.input = "arm.nrrd";
   run.voxel = 0.5;
   run.options.sizes["skin"] = Length::voxels(4);
+  run.options.targetTets = 5000;
+  run.options.tolerance = 0.1;
+  run.options.minEdgeLength = Length::voxels(0.5);
+  run.options.preserveVolume = true;
   run.threads = 3;
   run.seconds = 1.5;
   run.peakMemory = 1e6;
@@ -34,6 +38,7 @@ MeshingReport exampleRun() {
   tissue.levelSetEuler = 2;
   tissue.fidelity.dice = 0.75;
   tissue.lost = {2, 3.5};
+  tissue.worst = {{"aspect_ratio", 7, 2.5, {1, 2, 3}}};
   run.tissues = {tissue, {}};
   return run;
 }
@@ -44,9 +49,10 @@ TEST(Report, HasTheFieldsThatReadersExpect) {
             (std::vector<std::string>{"input", "machine", "options", "peak_memory_bytes", "program",
                                       "threads", "tissues", "total_seconds", "version"}));
   const Json& tissue = json["tissues"][0];
-  EXPECT_EQ(keys(tissue), (std::vector<std::string>{"conditions", "edge_length_mm", "fidelity", "file",
-                                                    "label", "layer", "lost", "message", "name", "nodes",
-                                                    "quality", "seconds", "status", "tets", "topology"}));
+  EXPECT_EQ(keys(tissue),
+            (std::vector<std::string>{"conditions", "edge_length_mm", "fidelity", "file", "label", "layer",
+                                      "lost", "message", "min_edge_length_mm", "name", "nodes", "quality",
+                                      "seconds", "status", "tets", "topology", "worst"}));
   EXPECT_EQ(keys(tissue["quality"]),
             (std::vector<std::string>{"inverted", "max_aspect_ratio", "max_dihedral_deg", "max_over_min_edge",
                                       "mean_aspect_ratio", "min_dihedral_deg"}));
@@ -68,6 +74,11 @@ TEST(Report, CarriesTheValues) {
   EXPECT_EQ(json["options"]["edge_length_mm"], 1.0) << "2vox of 0.5 mm";
   EXPECT_EQ(json["options"]["max_edge_length_mm"], 8.0);
   EXPECT_EQ(json["options"]["sizes_mm"]["skin"], 2.0);
+  EXPECT_EQ(json["options"]["min_edge_length_mm"], 0.25);
+  EXPECT_EQ(json["options"]["target_tets"], 5000);
+  EXPECT_EQ(json["options"]["tolerance_mm"], 0.1);
+  EXPECT_EQ(json["options"]["preserve_volume"], true);
+  EXPECT_EQ(json["options"]["with_quality"], false);
   EXPECT_EQ(json["threads"], 3);
   EXPECT_EQ(json["peak_memory_bytes"], 1000000);
   const Json& tissue = json["tissues"][0];
@@ -75,6 +86,8 @@ TEST(Report, CarriesTheValues) {
   EXPECT_EQ(tissue["seconds"]["lattice"], 0.5);
   EXPECT_EQ(tissue["tets"], 12);
   EXPECT_EQ(tissue["quality"]["max_aspect_ratio"], 2.5);
+  EXPECT_EQ(tissue["worst"], Json::parse(R"([{"measure": "aspect_ratio", "element": 7, "value": 2.5,
+                                              "place_mm": [1.0, 2.0, 3.0]}])"));
   EXPECT_EQ(tissue["conditions"]["nonmanifold_edges"], 6);
   EXPECT_EQ(tissue["topology"]["level_set_euler_characteristic"], 2);
   EXPECT_EQ(tissue["fidelity"]["dice"], 0.75);
@@ -92,10 +105,19 @@ TEST(Report, StatusHasThreeWords) {
 TEST(Report, MeshesHaveFidelityOnlyWithAReference) {
   MeshAssessment plain, compared;
   plain.file = "a.vtu";
+  plain.histogram.dihedrals[6] = 12;
+  plain.histogram.aspectRatios[1] = 3;
   compared.fidelity = Fidelity{};
   compared.tissue = "skin";
   const Json json = Json::parse(toJson({plain, compared}));
   EXPECT_EQ(json["meshes"][0]["file"], "a.vtu");
+  const Json& dihedrals = json["meshes"][0]["histogram"]["dihedral_deg"];
+  EXPECT_EQ(dihedrals["from"].size(), 18u);
+  EXPECT_EQ(dihedrals["from"][17], 170.0);
+  EXPECT_EQ(dihedrals["counts"][6], 12);
+  const Json& aspectRatios = json["meshes"][0]["histogram"]["aspect_ratio"];
+  EXPECT_EQ(aspectRatios["from"].size(), aspectRatios["counts"].size());
+  EXPECT_EQ(aspectRatios["counts"][1], 3);
   EXPECT_FALSE(json["meshes"][0].contains("fidelity"));
   EXPECT_EQ(json["meshes"][1]["tissue"], "skin");
   EXPECT_TRUE(json["meshes"][1].contains("fidelity"));

@@ -3,16 +3,30 @@
 #include "sinew/Mesher/TetMesh.h"
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace sinew {
 
-/// Writes a mesh as VTK XML unstructured grid: points (double, LPS mm), tets, cell array `labels` (Int32, active
-/// scalars), zlib-compressed, readable by ParaView, 3D Slicer and meshio.
-/// @throws std::runtime_error naming the file when it cannot be written.
-void writeVtu(const TetMesh& mesh, const std::filesystem::path& file);
+/// A named value for every tet, or for every node.
+struct MeshArray {
+  std::string name;
+  std::vector<float> values;
+};
+struct MeshArrays {
+  std::vector<MeshArray> cells;   ///< one value per tet; the name `labels` is taken
+  std::vector<MeshArray> points;  ///< one value per node
+};
 
-/// Reads the tets of a .vtu or .vtk file; other cells are passed over. `labels` comes from the cell array of that
-/// name, else 1; `kinds` from the boundary.
+/// Writes a mesh as VTK XML unstructured grid: points (double, LPS mm), tets, cell array `labels` (Int32,
+/// active scalars), further arrays (Float32) after it, zlib-compressed, readable by ParaView, 3D Slicer and
+/// meshio.
+/// @throws std::runtime_error naming the file when it cannot be written; std::invalid_argument when an array
+/// has not one value for each tet or node.
+void writeVtu(const TetMesh& mesh, const std::filesystem::path& file, const MeshArrays& further = {});
+
+/// Reads the tets of a .vtu or .vtk file; other cells are passed over. `labels` comes from the cell array of
+/// that name, else 1; `kinds` from the boundary.
 /// @throws std::runtime_error naming the file when it is missing, damaged or has no tets.
 TetMesh readTetMesh(const std::filesystem::path& file);
 

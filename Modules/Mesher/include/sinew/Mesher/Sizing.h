@@ -15,8 +15,9 @@ struct LatticeFrame {
 struct SizingOptions {
   double edgeLength = 0;     ///< cube size asked for at the surface, mm, > 0
   double maxEdgeLength = 0;  ///< largest cube size, mm, >= edgeLength
-  double minEdgeLength = 0;  ///< smallest cube size that curvature and thickness may ask for, mm
+  double minEdgeLength = 0;  ///< smallest cube size that the rules below may ask for, mm
   double curvature = 1.0;    ///< refine where cube size * (|k1| + |k2|) exceeds this; 0: never
+  double tolerance = 0;      ///< refine where cube size^2 * max(|k1|, |k2|) / 8 exceeds this, mm; 0: never
   double thickness = 1.6;    ///< refine where the shape is thinner than this many cubes; 0: never
   int levels = 0;            ///< largest number of levels; 0: no limit
 };
@@ -35,9 +36,10 @@ struct LatticePlan {
 LatticePlan planLattice(const SignedDistance& phi, const SizingOptions& options);
 
 /// Refines the lattice: cubes of edgeLength or less within one edge length of the surface, finer ones where
-/// curvature or thickness ask (Teran et al. 2005, section 5), graded by the hierarchy elsewhere; where much
-/// of the surface asks, all of it becomes finer and plan.surfaceLevel rises. Closes the hierarchy. Cost:
-/// O(shape's surface / edgeLength^2 + bounds / band^3); parallel, the same for any number of threads.
+/// curvature, tolerance or thickness ask, the first two down to the resolution of phi (Teran et al. 2005,
+/// section 5), graded by the hierarchy elsewhere; where much of the surface asks, all of it becomes finer and
+/// plan.surfaceLevel rises. Closes the hierarchy. Cost: O(shape's surface / edgeLength^2 + bounds / band^3);
+/// parallel, the same for any number of threads.
 /// @return the finest level with tets
 int refineToSize(RedGreenLattice& lattice, LatticePlan& plan, const SignedDistance& phi,
                  const SizingOptions& options);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sinew/Mesher/QualityHistogram.h"
 #include "sinew/Pipeline/MeshTissues.h"
 
 #include <filesystem>
@@ -12,6 +13,8 @@ namespace sinew {
 struct MeshAssessment {
   std::string file;
   MeshQuality quality;
+  std::vector<WorstElement> worst;  ///< as in TissueReport
+  QualityHistogram histogram;
   MeshConditions conditions;
   MeshTopology topology;
   std::string tissue;                ///< what it was compared with; empty without a reference

@@ -19,10 +19,19 @@ namespace sinew {
 struct MeshTissuesOptions {
   Length edgeLength = Length::voxels(2);  ///< cube size at the surface, > 0; at most the tissue's extent
   Length maxEdgeLength = 0;               ///< cube size deep inside; 0: eight times the edge length
+  Length minEdgeLength = 0;  ///< smallest cube that refinement may make; 0: the level set's spacing
   std::map<std::string, Length> sizes;  ///< tissue, by a wish as in selectTissues -> its own edge length, > 0
-  double curvature = 1.0;               ///< see GenerateTetMeshOptions
-  int levels = 0;                       ///< see GenerateTetMeshOptions
-  LevelSetFromLabelsOptions levelSet;   ///< labels to distance
+  /// Choose the edge length of tissues without one in `sizes` for so many tets within 10 %; 0: off.
+  /// Refinement then goes two levels down at most.
+  std::int64_t targetTets = 0;
+  double curvature = 1.0;  ///< see GenerateTetMeshOptions
+  Length tolerance = 0;    ///< see GenerateTetMeshOptions; 0: off
+  int levels = 0;          ///< see GenerateTetMeshOptions
+  /// Move the target surface, by a tenth of an edge length at most and in at most four meshings, until the
+  /// mesh has the level set's volume within 0.1 %.
+  bool preserveVolume = false;
+  bool withQuality = false;            ///< write arrays of quality and level set to the files
+  LevelSetFromLabelsOptions levelSet;  ///< labels to distance
 };
 
 enum class TissueStatus { Meshed, Lost, Failed };
@@ -45,16 +54,26 @@ struct LostPieces {
   double volume = 0;  ///< mm^3
 };
 
+/// One of the worst tets of a mesh by one measure.
+struct WorstElement {
+  std::string measure;       ///< `aspect_ratio`, `min_dihedral_deg` or `max_dihedral_deg`
+  std::int64_t element = 0;  ///< number of the tet in the file, from 0
+  double value = 0;
+  Eigen::Vector3d place;  ///< its centroid, LPS mm
+};
+
 struct TissueReport {
   std::string name;
   std::int32_t label = 0;
   int layer = 0;
   std::string file;  ///< name inside the output folder; empty when nothing was written
   TissueStatus status = TissueStatus::Failed;
-  std::string message;                                  ///< one line: why it was lost or failed, or a warning
-  double edgeLength = 0;                                ///< as taken for this tissue, mm
+  std::string message;       ///< one line: why it was lost or failed, or a warning
+  double edgeLength = 0;     ///< as taken for this tissue, mm
+  double minEdgeLength = 0;  ///< that refinement might make, mm; 0: the level set's spacing
   std::vector<std::pair<std::string, double>> seconds;  ///< stage -> wall seconds, in order
   MeshQuality quality;
+  std::vector<WorstElement> worst;  ///< up to kRankedTets of each measure, the worst first
   MeshConditions conditions;
   MeshTopology topology;
   std::int64_t levelSetComponents = 0;

@@ -1,0 +1,64 @@
+#include "UnderResolution.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace sinew {
+namespace {
+
+constexpr double kCubesAlongPiece = 3;  // at which a lone piece of some voxels is seen
+
+std::string count(std::int64_t number, const std::string& what) {
+  return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
+}
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+/// Down to two significant digits.
+double roundedDown(double value) {
+  const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
+  return unit * std::floor(value / unit * (1 + 1e-9));
+}
+
+/// Text in quotes that a shell takes as it is.
+std::string quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return result + "'";
+}
+
+}  // namespace
+
+std::string sizeOption(const std::string& tissue, double edge) {
+  return "--size " + quoted(tissue + "=" + number(roundedDown(edge)) + "mm");
+}
+
+std::string underResolution(const TissueReport& report) {
+  constexpr double kVolumeError = 0.05;
+  std::string signs;
+  const auto add = [&](const std::string& sign) { signs += (signs.empty() ? "" : ", ") + sign; };
+
+  double edge = report.edgeLength / 2;
+  if (report.lost.components > 0) {
+    add(count(report.lost.components, "piece") + " of " + number(report.lost.volume) + " mm^3 in all lost");
+    const double piece = report.lost.volume / static_cast<double>(report.lost.components);
+    edge = std::min(edge, std::cbrt(piece) / kCubesAlongPiece);
+  }
+  if (report.topology.components != report.levelSetComponents)
+    add(count(report.topology.components, "component") + " instead of " +
+        std::to_string(report.levelSetComponents));
+  if (report.topology.eulerCharacteristic != report.levelSetEuler)
+    add("Euler characteristic " + std::to_string(report.topology.eulerCharacteristic) + " instead of " +
+        std::to_string(report.levelSetEuler));
+  const double error = report.fidelity.volume / report.fidelity.levelSetVolume - 1;
+  if (std::abs(error) > kVolumeError)
+    add("volume " + number(100 * std::abs(error)) + " % too " + (error < 0 ? "small" : "large"));
+  return signs.empty() ? "" : "under-resolved: " + signs + "; try " + sizeOption(report.name, edge);
+}
+
+}  // namespace sinew
