@@ -33,7 +33,10 @@ void addOptions(CommandLine& line, MeshCommand& command) {
       ->required();
   app.add_option("-o,--output", command.folder, "folder for <tissue>.vtu and report.json; made if missing")
       ->type_name("DIR")
-      ->required();
+      ->required()
+      ->check([](const std::string& folder) {
+        return folder.empty() ? std::string("an empty name is no folder") : std::string();
+      });
   app.add_option("--tissue", command.wishes, "mesh only this tissue; repeatable; default all")
       ->type_name("NAME|LABEL")
       ->expected(1)

@@ -8,6 +8,8 @@
 #include "sinew/Segmentation/Phantom.h"
 #include "sinew/Segmentation/WriteSegmentation.h"
 
+#include <stdexcept>
+
 namespace sinew {
 namespace {
 
@@ -32,6 +34,8 @@ int phantom(const CommandLine& line, const PhantomCommand& command) {
     throw CLI::ValidationError("--output", command.output + ": phantoms are written as .nrrd or .seg.nrrd");
   checkOutputFile(command.output, line.common.force);
   const Segmentation segmentation = makePhantom(command.name, command.options);
+  if (segmentation.tissues.empty())
+    throw std::invalid_argument(command.name + ": no voxel lies in a tissue; use a smaller --spacing");
   const OutputFolder folder(std::filesystem::absolute(command.output).parent_path());
   OutputFile output(command.output);
   writeSegmentation(segmentation, output.temporary());

@@ -175,7 +175,9 @@ std::array<double, 6> dihedralAnglesDeg(const Eigen::Vector3d& a, const Eigen::V
 }
 
 MeshQuality meshQuality(const TetMesh& mesh) {
-  MeshQuality quality{.tets = std::ssize(mesh.tets), .nodes = std::ssize(mesh.nodes)};
+  MeshQuality quality;
+  quality.tets = std::ssize(mesh.tets);
+  quality.nodes = std::ssize(mesh.nodes);
   if (mesh.tets.empty()) return quality;
   const Tally tally = tallyOf(mesh);
   quality.maxAspectRatio = tally.maxAspectRatio;

@@ -2,6 +2,7 @@
 
 #include "LevelSetSurface.h"
 #include "MeasureFidelity.h"
+#include "TissuePlan.h"
 #include "WorstElements.h"
 #include "sinew/MeshIO/VtuFile.h"
 #include "sinew/Pipeline/FileNames.h"
@@ -66,7 +67,12 @@ MeshAssessment assessMesh(const std::filesystem::path& file, const Segmentation&
   const MeshBoundary boundary = meshBoundary(mesh);
   MeshAssessment assessment = assess(file, mesh, boundary);
   LevelSetFromLabelsReport volumes;
-  const LevelSet levelSet = levelSetFromLabels(reference, tissue, options, &volumes);
+  // As `sinew mesh` makes it at its default edge length, so that the zero sets are the same.
+  MeshTissuesOptions meshing;
+  meshing.levelSet = options;
+  const double edge = meshing.edgeLength.millimetres(reference.geometry.meanSpacing());
+  const LevelSet levelSet =
+      levelSetFromLabels(reference, tissue, planTissue(reference, tissue, edge, meshing).levelSet, &volumes);
   const FidelityReport fidelity = measureFidelity(mesh, boundary.triangles, LevelSetSurface(levelSet),
                                                   levelSet.frame, volumes, reference, tissue);
   assessment.tissue = tissue.name;

@@ -9,7 +9,8 @@ namespace {
 // A staircase has 1.5 times the area of the smooth surface behind it, over all directions.
 constexpr double kStaircaseArea = 1.5;
 // As estimateMemory of the mesher: 400 bytes for each of 60 tets at the surface, of 12 inside.
-constexpr double kBytesPerSurfaceCube = 24000;  // lattice, candidate and mesh, per cube face of smooth surface
+constexpr double kBytesPerSurfaceCube =
+    24000;  // lattice, candidate and mesh, per cube face of smooth surface
 constexpr double kBytesPerInnerCube = 4800;
 constexpr double kBytesPerVoxel = 12;      // of the crop and of the level set's grid: masks and fields
 constexpr double kBytesPerBandVoxel = 20;  // grid, bricks, march
