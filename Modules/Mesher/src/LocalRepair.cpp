@@ -26,7 +26,7 @@ struct Limits {
 };
 constexpr Limits kBad{3.5, 25, 140}, kGrave{4.2, 20, 142};
 constexpr int kMaxRounds = 40;
-constexpr int kMostRounds = 120;           // while there are grave spots
+constexpr int kMostRounds = 400;           // while there are grave spots
 constexpr std::size_t kGraveTrials = 4;    // at a grave spot, before something is given up for good
 constexpr int kPatchRings = 3;             // rings of nodes around what was given up that move again
 constexpr std::size_t kMostReleased = 64;  // nodes, in a trial
@@ -152,8 +152,9 @@ class LocalRepair {
       Patch patch;
       patch.key = spot.nodes;
       const std::size_t trial = trials_[spot.nodes];
-      patch.lastResort = spot.grave && trial >= kGraveTrials;
-      const Nodes choice = choiceAt(spot, patch.lastResort ? 0 : trial);
+      Nodes choice = trial < kGraveTrials || !spot.grave ? choiceAt(spot, trial) : Nodes{};
+      patch.lastResort = spot.grave && choice.empty();
+      if (patch.lastResort) choice = choiceAt(spot, 0);
       if (choice.empty()) continue;
       patch.released =
           patch.lastResort ? releaseNodes(set_, choice) : releaseNodes(set_, choice, kMostReleased);
