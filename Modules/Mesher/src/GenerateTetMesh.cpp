@@ -95,7 +95,7 @@ LatticeMesh latticeFor(const SignedDistance& phi, const SizingOptions& sizing,
     report.finestCube = plan.cubeSize(finest);
     report.latticeNodes = lattice.nodes().size();
     LatticeMesh mesh = latticeMesh(lattice, plan, phi);
-    if (finest == plan.surfaceLevel || greenShare(mesh) <= kMostGreen) return mesh;
+    if (finest <= plan.surfaceLevel || greenShare(mesh) <= kMostGreen) return mesh;
     ++plan.surfaceLevel;
   }
 }

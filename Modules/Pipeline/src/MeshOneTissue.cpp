@@ -189,13 +189,18 @@ class TissueRun {
     TetMesh best = std::move(attempt.mesh);
     if (best.tets.empty()) return best;
 
-    const VolumeRule& rule = options_.preserveVolume ? kExactVolume : kNoticeableVolume;
+    const VolumeRule& rule = volumeRule(options_.preserveVolume);
     GenerateTetMeshOptions options = mesherOptions(plan_);
     options.progress = [this](std::string_view, double) { advance("keeping the volume", kAfterMesh); };
     const double wanted = volumes_.levelSetVolume, area = boundaryArea(best);
     std::vector<OffsetTrial> trials{{0, meshVolume(best)}};
     while (const auto offset = nextOffset(trials, wanted, area, plan_.sizes.edge, rule)) {
-      TetMesh mesh = generateOn(OffsetSurface(*surface_, *offset), options);
+      TetMesh mesh;
+      try {
+        mesh = generateOn(OffsetSurface(*surface_, *offset), options);
+      } catch (const std::runtime_error&) {
+        break;  // no mesh on the moved surface: the best so far stands
+      }
       trials.push_back({*offset, meshVolume(mesh)});
       if (bestTrial(trials, wanted) + 1 == trials.size()) best = std::move(mesh);
     }

@@ -1,5 +1,7 @@
 #include "TissuePlan.h"
 
+#include "VolumeOffset.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -25,13 +27,13 @@ double fittingEdge(const Extent& extent, double voxel, double wanted) {
   return std::min(wanted, wanted <= kFineVoxels * voxel ? extent.mean / kCubesAlong : extent.largest);
 }
 
-/// The mesher looks for the surface up to 1.55 edge lengths away, and from there on where it is moved to keep
-/// the volume; samples much finer than the lattice buy nothing, but a speck is sampled more finely than its
-/// voxels.
+/// The mesher looks for the surface up to 1.55 edge lengths away, also where it is moved to keep the volume;
+/// samples much finer than the lattice buy nothing, but a speck is sampled more finely than its voxels.
 LevelSetFromLabelsOptions levelSetOptions(const ImageGeometry& geometry, double meanExtent, double edge,
                                           const MeshTissuesOptions& meshing) {
   constexpr double kSamplesPerEdge = 5, kSamplesAlong = 12, kFinestSpeck = 1.0 / 3;
-  const double bandEdges = meshing.preserveVolume ? 1.66 : 1.6;
+  constexpr double kReachEdges = 1.56;  // with room for rounding
+  const double bandEdges = kReachEdges + volumeRule(meshing.preserveVolume).largestEdges;
   const double voxel = defaultGridSpacing(geometry);
   LevelSetFromLabelsOptions options = meshing.levelSet;
   if (options.gridSpacing <= 0)

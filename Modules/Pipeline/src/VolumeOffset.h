@@ -21,6 +21,7 @@ struct VolumeRule {
 /// Flat triangles cut off what is round: by default a noticeable part of the volume is given back.
 inline constexpr VolumeRule kNoticeableVolume{0.01, 2, 0.05, false};
 inline constexpr VolumeRule kExactVolume{0.001, 4, 0.1, true};
+constexpr const VolumeRule& volumeRule(bool exact) { return exact ? kExactVolume : kNoticeableVolume; }
 
 /// The trial whose volume is nearest to the wanted one; the first of equals.
 std::size_t bestTrial(const std::vector<OffsetTrial>& trials, double wantedVolume);

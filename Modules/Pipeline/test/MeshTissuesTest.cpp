@@ -108,6 +108,21 @@ TEST(MeshTissues, WritesOneSoundMeshPerTissueAndNamesWhatIsLost) {
   EXPECT_NE(thread.message.find("too small for the lattice: 10 voxels"), std::string::npos) << thread.message;
 }
 
+TEST(MeshTissues, TheVolumeIsKeptAtAnyEdgeLength) {
+  // The small ball misses so much that the offset is at its limit: the band of the level set must hold it.
+  const Segmentation segmentation = ballsAndThread();
+  int atTheLimit = 0;
+  for (double edge = 5; edge < 8; edge += 0.017) {
+    const test::TempFolder folder;
+    MeshTissuesOptions options = coarse();
+    options.edgeLength = edge;
+    const TissueReport report = meshTissues(segmentation, {1}, folder.path(), options).front();
+    EXPECT_EQ(report.status, TissueStatus::Meshed) << "edge length " << edge << ": " << report.message;
+    atTheLimit += report.fidelity.surfaceOffset == 0.05 * edge;
+  }
+  EXPECT_GT(atTheLimit, 10) << "these sizes are no test";
+}
+
 TEST(MeshTissues, ASpeckIsMeshedAtTheDefaultSize) {
   const test::TempFolder folder;
   const std::vector<TissueReport> reports = meshTissues(ballsAndThread(), {0, 2}, folder.path(), {});
