@@ -8,22 +8,24 @@
 
 namespace sinew::test {
 
-/// The lattice around a shape, as the candidate is chosen from it.
+/// A lattice that is refined to a shape, and what matters of it.
 struct Background {
+  LatticePlan plan;
+  RedGreenLattice lattice;
   LatticeMesh mesh;
   NodeStars stars;
 };
 
-inline Background backgroundOf(const SignedDistance& phi, double edgeLength) {
+inline Background backgroundOf(const SignedDistance& phi, double edgeLength, double maxOverEdge = 8) {
   const SizingOptions options{.edgeLength = edgeLength,
-                              .maxEdgeLength = 8 * edgeLength,
+                              .maxEdgeLength = maxOverEdge * edgeLength,
                               .minEdgeLength = std::min(phi.resolution(), edgeLength)};
   LatticePlan plan = planLattice(phi, options);
   RedGreenLattice lattice(plan.coarseCells, plan.levels);
   refineToSize(lattice, plan, phi, options);
-  Background b{latticeMesh(lattice, plan, phi), {}};
-  b.stars = nodeStars(b.mesh.positions.size(), b.mesh.tets);
-  return b;
+  LatticeMesh mesh = latticeMesh(lattice, plan, phi);
+  NodeStars stars = nodeStars(mesh.positions.size(), mesh.tets);
+  return {plan, std::move(lattice), std::move(mesh), std::move(stars)};
 }
 
 }  // namespace sinew::test

@@ -1,3 +1,4 @@
+#include "Background.h"
 #include "GoalMeasure.h"
 #include "RandomShapes.h"
 #include "sinew/Mesher/Candidate.h"
@@ -16,14 +17,8 @@ namespace {
 using Eigen::Vector3d;
 
 TetMesh candidateOf(const SignedDistance& phi, double edgeLength, double maxOverEdge = 8) {
-  const SizingOptions options{.edgeLength = edgeLength,
-                              .maxEdgeLength = maxOverEdge * edgeLength,
-                              .minEdgeLength = std::min(phi.resolution(), edgeLength)};
-  LatticePlan plan = planLattice(phi, options);
-  RedGreenLattice lattice(plan.coarseCells, plan.levels);
-  refineToSize(lattice, plan, phi, options);
-  const LatticeMesh mesh = latticeMesh(lattice, plan, phi);
-  return extractMesh(mesh, selectCandidate(mesh, nodeStars(mesh.positions.size(), mesh.tets)).keep, 1);
+  const test::Background b = test::backgroundOf(phi, edgeLength, maxOverEdge);
+  return extractMesh(b.mesh, selectCandidate(b.mesh, b.stars).keep, 1);
 }
 
 bool isListed(const CompressionReport& report, std::size_t node) {

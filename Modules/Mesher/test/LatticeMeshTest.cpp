@@ -1,3 +1,4 @@
+#include "Background.h"
 #include "LatticeOracle.h"
 #include "RandomShapes.h"
 #include "sinew/Mesher/LatticeMesh.h"
@@ -14,22 +15,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-struct Built {
-  LatticePlan plan;
-  RedGreenLattice lattice;
-  LatticeMesh mesh;
-};
+using Built = test::Background;
 
-Built built(const SignedDistance& phi, double edgeLength) {
-  const SizingOptions options{.edgeLength = edgeLength,
-                              .maxEdgeLength = 4 * edgeLength,
-                              .minEdgeLength = std::min(phi.resolution(), edgeLength)};
-  LatticePlan plan = planLattice(phi, options);
-  RedGreenLattice lattice(plan.coarseCells, plan.levels);
-  refineToSize(lattice, plan, phi, options);
-  LatticeMesh mesh = latticeMesh(lattice, plan, phi);
-  return {plan, std::move(lattice), std::move(mesh)};
-}
+Built built(const SignedDistance& phi, double edgeLength) { return test::backgroundOf(phi, edgeLength, 4); }
 
 /// Every leaf of the block with the numbers of the whole lattice.
 std::vector<Tet> numberedLeaves(const RedGreenLattice& lattice) {

@@ -52,10 +52,10 @@ TissueCost estimateCost(const Segmentation& segmentation, const Tissue& tissue, 
   const double area = surfaceArea(segmentation, tissue);
   const double volume = static_cast<double>(tissue.voxels) * geometry.voxelVolume();
   const double spacing = levelSet.gridSpacing, band = levelSet.bandVoxels * spacing;
-  const Eigen::Array3d extent =
-      (tissue.box.upper - tissue.box.lower).cast<double>().cwiseProduct(geometry.spacing).array() + 2 * band;
-  const double cropVoxels = extent.prod() / geometry.voxelVolume();
-  const double gridVoxels = extent.prod() / std::pow(spacing, 3);
+  const Eigen::Array3d sides =
+      (tissue.box.upper - tissue.box.lower).cast<double>().cwiseProduct(geometry.spacing).array();
+  const double gridVoxels = (sides + 2 * band).prod() / std::pow(spacing, 3);
+  const double cropVoxels = sides.prod() / geometry.voxelVolume();
   const double bandVoxels = std::min(gridVoxels, 2 * band * area / std::pow(spacing, 3));
   const double surfaceCubes = area / (sizes.edge * sizes.edge);
   const double innerCubes = volume / std::pow(sizes.largest, 3);

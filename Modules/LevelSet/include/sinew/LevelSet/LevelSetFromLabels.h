@@ -6,10 +6,12 @@
 namespace sinew {
 
 struct LevelSetFromLabelsOptions {
-  double smoothingVoxels = 1;      ///< standard deviation of the Gauss, voxels; 0 keeps the voxels' stairs
-  double bandVoxels = 4;           ///< half width of the narrow band, level set voxels, >= 3
-  double thickSliceRatio = 1.8;    ///< largest over smallest spacing from which slices are interpolated by shape
-  double gridSpacing = 0;          ///< mm; 0: the smallest image spacing, but not below half a voxel (cube root)
+  double smoothingVoxels = 1;  ///< standard deviation of the Gauss, voxels; 0 keeps the voxels' stairs
+  double bandVoxels = 4;       ///< half width of the narrow band, level set voxels, >= 3
+  /// Largest over smallest spacing from which slices are interpolated by shape; of blocks of voxels where the
+  /// grid is coarser than these.
+  double thickSliceRatio = 1.8;
+  double gridSpacing = 0;  ///< mm; 0: the smallest image spacing, but not below half a voxel (cube root)
 };
 
 /// What the conversion did to the tissue.
@@ -20,22 +22,24 @@ struct LevelSetFromLabelsReport {
   double levelSetVolume = 0;       ///< volume of phi < 0, mm^3
 };
 
-/// Spacing of the level set where the options leave it open: the smallest image spacing, but not below half a voxel
-/// (cube root of its volume), mm.
+/// Spacing of the level set where the options leave it open: the smallest image spacing, but not below half a
+/// voxel (cube root of its volume), mm.
 double defaultGridSpacing(const ImageGeometry& geometry);
 
-/// Turns the voxels of one tissue into a signed distance: crop with a margin of background, Gauss with the iso value
-/// that keeps the label's volume and with levels of their own for thin parts, or slice-wise 2-D distances and shape
-/// interpolation across thick slices, resampling to an isotropic grid, second-order narrow-band fast marching, and an
-/// offset (below half a voxel) that makes the volume right. The grid's axes are the rotation nearest to the image's;
-/// one is reversed where the image is left-handed, and the axis across thick slices comes last.
+/// Turns the voxels of one tissue into a signed distance: crop with a margin of background, in blocks of
+/// voxels where the grid is that much coarser, Gauss with the iso value that keeps the label's volume and
+/// with levels of their own for thin parts, or slice-wise 2-D distances and shape interpolation across thick
+/// slices, resampling to an isotropic grid, second-order narrow-band fast marching, and an offset (below half
+/// a voxel) that makes the volume right. The grid's axes are the rotation nearest to the image's; one is
+/// reversed where the image is left-handed, and the axis across thick slices comes last.
 ///
-/// Pieces of a few voxels that smoothing would wipe out stay as they were drawn; a tissue that would vanish as a whole
-/// is smoothed less.
+/// Pieces of a few voxels that smoothing would wipe out stay as they were drawn; a tissue that would vanish
+/// as a whole is smoothed less.
 /// @throws std::invalid_argument on options out of range or a tissue without voxels.
-/// Cost: O(box of the tissue) plus O(band); memory: one float per sample of the level set's box, and less than half as
-/// much again.
+/// Cost: O(box of the tissue) plus O(band); memory: one float per sample of the level set's box, and less
+/// than half as much again.
 LevelSet levelSetFromLabels(const Segmentation& segmentation, const Tissue& tissue,
-                            const LevelSetFromLabelsOptions& options = {}, LevelSetFromLabelsReport* report = nullptr);
+                            const LevelSetFromLabelsOptions& options = {},
+                            LevelSetFromLabelsReport* report = nullptr);
 
 }  // namespace sinew

@@ -17,8 +17,10 @@
 namespace sinew {
 
 struct MeshTissuesOptions {
-  Length edgeLength = Length::voxels(2);  ///< cube size at the surface, > 0; at most the tissue's extent
-  Length maxEdgeLength = 0;               ///< cube size deep inside; 0: eight times the edge length
+  /// Cube size at the surface, > 0. At most the tissue's extent; up to two voxels at most a third of the cube
+  /// root of its volume.
+  Length edgeLength = Length::voxels(2);
+  Length maxEdgeLength = 0;  ///< cube size deep inside; 0: eight times the edge length
   Length minEdgeLength = 0;  ///< smallest cube that refinement may make; 0: the level set's spacing
   std::map<std::string, Length> sizes;  ///< tissue, by a wish as in selectTissues -> its own edge length, > 0
   /// Choose the edge length of tissues without one in `sizes` for so many tets within 10 %; 0: off.
