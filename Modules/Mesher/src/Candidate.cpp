@@ -2,6 +2,7 @@
 
 #include "KeptSet.h"
 
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -28,13 +29,17 @@ Candidate selectCandidate(const LatticeMesh& mesh, const NodeStars& stars, const
   KeptSet set(mesh, stars, envelopeInteriorNodes(mesh, options.minInsideFraction));
   std::vector<std::int32_t> all(mesh.phi.size());
   std::iota(all.begin(), all.end(), 0);
-  const Enveloped repair = envelopeViolations(set, std::move(all), options.maxPasses);
+  const Enveloped repair = envelopeViolations(set, all, options.maxPasses);
   Candidate candidate;
+  candidate.violations = repair.violations;
+  if (repair.violations > 0 && options.maxPasses > 0) {
+    candidate.released = std::ssize(releaseViolations(set, std::move(all)));
+    candidate.violations = 0;
+  }
   candidate.enveloped = set.enveloped();
   candidate.keep = set.keep();
   candidate.passes = repair.passes;
   candidate.added = static_cast<std::int64_t>(repair.nodes.size());
-  candidate.violations = repair.violations;
   return candidate;
 }
 

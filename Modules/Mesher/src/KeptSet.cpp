@@ -172,6 +172,19 @@ Enveloped envelopeViolations(KeptSet& set, std::vector<std::int32_t> suspects, i
   }
 }
 
+namespace {
+
+std::vector<std::int32_t> shallowestAtViolations(const KeptSet& set,
+                                                 const std::vector<std::int32_t>& suspects) {
+  return chooseNodes(set, suspects, [&](auto violation) { return set.shallowestAt(violation); });
+}
+
+}  // namespace
+
+std::vector<std::int32_t> releaseViolations(KeptSet& set, std::vector<std::int32_t> suspects) {
+  return releaseNodes(set, shallowestAtViolations(set, suspects));
+}
+
 std::vector<std::int32_t> releaseNodes(KeptSet& set, std::vector<std::int32_t> nodes, std::size_t most) {
   std::vector<std::int32_t> released;
   while (!nodes.empty()) {
@@ -181,11 +194,21 @@ std::vector<std::int32_t> releaseNodes(KeptSet& set, std::vector<std::int32_t> n
       for (const std::int32_t n : released) set.envelope(n);
       return {};
     }
-    nodes = chooseNodes(set, neighbourhood(set, nodes),
-                        [&](auto violation) { return set.shallowestAt(violation); });
+    nodes = shallowestAtViolations(set, neighbourhood(set, nodes));
   }
   sortUnique(released);
   return released;
+}
+
+std::vector<std::int32_t> envelopeNode(KeptSet& set, std::int32_t node, std::size_t most) {
+  constexpr int kPasses = 4;
+  set.envelope(node);
+  Enveloped all = envelopeViolations(set, neighbourhood(set, {node}), kPasses);
+  all.nodes.push_back(node);
+  sortUnique(all.nodes);
+  if (all.violations == 0 && all.nodes.size() <= most) return all.nodes;
+  for (const std::int32_t n : all.nodes) set.release(n);
+  return {};
 }
 
 }  // namespace sinew

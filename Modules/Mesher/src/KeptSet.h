@@ -119,4 +119,13 @@ Enveloped envelopeViolations(KeptSet& set, std::vector<std::int32_t> suspects, i
 std::vector<std::int32_t> releaseNodes(KeptSet& set, std::vector<std::int32_t> nodes,
                                        std::size_t most = std::numeric_limits<std::size_t>::max());
 
+/// Releases nodes at the violations among the suspects until the conditions hold.
+/// @return the nodes released, ascending
+std::vector<std::int32_t> releaseViolations(KeptSet& set, std::vector<std::int32_t> suspects);
+
+/// Envelops a node, and more of them until the conditions hold again; the other way round than releaseNodes.
+/// @param most  where more nodes would have to come in, the set stays as it is
+/// @return the nodes enveloped, ascending
+std::vector<std::int32_t> envelopeNode(KeptSet& set, std::int32_t node, std::size_t most);
+
 }  // namespace sinew

@@ -2,14 +2,17 @@
 
 #include "GoalMeasure.h"
 #include "KeptSet.h"
+#include "NodeStarEnergy.h"
 #include "sinew/Mesher/Compression.h"
 #include "sinew/Mesher/MeshQuality.h"
 
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <ranges>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 
 namespace sinew {
@@ -25,12 +28,14 @@ struct Limits {
   }
 };
 constexpr Limits kBad{3.5, 25, 140}, kGrave{4.2, 20, 142};
-constexpr int kMaxRounds = 40;
+constexpr int kMaxRounds = 300;
 constexpr int kMostRounds = 400;           // while there are grave spots
-constexpr std::size_t kGraveTrials = 4;    // at a grave spot, before something is given up for good
-constexpr int kPatchRings = 3;             // rings of nodes around what was given up that move again
+constexpr int kPatchRings = 2;             // rings of nodes around what was given up that move again
 constexpr std::size_t kMostReleased = 64;  // nodes, in a trial
 constexpr std::size_t kMostChoices = 6;    // nodes that are tried at a spot
+constexpr std::size_t kMostOuter = 10;
+constexpr std::size_t kMostEnveloped = 8;  // nodes, in a trial
+constexpr double kWorstStart = 100;        // F with which a trial may begin
 
 using Nodes = std::vector<std::int32_t>;
 
@@ -63,12 +68,22 @@ class Badness {
   double sum_ = 0;
 };
 
-/// A trial: what was given up, and the nodes that move again.
+/// What a trial changes: nodes to give up, or one to take in.
+struct Choice {
+  Nodes release;
+  std::int32_t envelope = kNone;
+
+  bool empty() const { return release.empty() && envelope == kNone; }
+};
+
+/// A trial: what was given up or taken in, and the nodes that move again.
 struct Patch {
   Nodes key;                ///< the spot's nodes
   bool lastResort = false;  ///< stays even when it is no better: nothing else has helped
   Nodes released;
+  Nodes enveloped;
   Nodes region;
+  std::vector<Eigen::Vector3d> former;  ///< positions of the region's nodes before the trial
   Badness before, after;
 };
 
@@ -151,20 +166,14 @@ class LocalRepair {
       if (std::ranges::any_of(spot.nodes, [&](std::int32_t n) { return nearPatch_[n] != 0; })) continue;
       Patch patch;
       patch.key = spot.nodes;
-      const std::size_t trial = trials_[spot.nodes];
-      Nodes choice = trial < kGraveTrials || !spot.grave ? choiceAt(spot, trial) : Nodes{};
-      patch.lastResort = spot.grave && choice.empty();
-      if (patch.lastResort) choice = choiceAt(spot, 0);
-      if (choice.empty()) continue;
-      patch.released =
-          patch.lastResort ? releaseNodes(set_, choice) : releaseNodes(set_, choice, kMostReleased);
-      if (patch.released.empty()) {
-        ++trials_[spot.nodes];
-        continue;
-      }
-      patch.region = regionAround(patch.released);
+      if (!change(spot, patch)) continue;
       if (isTaken(patch.region)) {
         putBack(patch);
+        continue;
+      }
+      if (!patch.enveloped.empty() && !relax(patch)) {
+        putBack(patch);
+        ++trials_[spot.nodes];
         continue;
       }
       take(patch.region, static_cast<std::int32_t>(patches.size()));
@@ -178,6 +187,49 @@ class LocalRepair {
     return patches;
   }
 
+  /// Changes the set as the next trial at a spot wants; false when it cannot, or when all has been tried.
+  bool change(const Spot& spot, Patch& patch) {
+    std::size_t& trial = trials_[spot.nodes];
+    Choice choice = choiceAt(spot, trial);
+    patch.lastResort = spot.grave && choice.empty();
+    if (patch.lastResort) choice = choiceAt(spot, 0);
+    if (choice.empty()) return false;
+    if (choice.envelope != kNone)
+      patch.enveloped = envelopeNode(set_, choice.envelope, kMostEnveloped);
+    else
+      patch.released = patch.lastResort ? releaseNodes(set_, choice.release)
+                                        : releaseNodes(set_, choice.release, kMostReleased);
+    if (patch.released.empty() && patch.enveloped.empty()) {
+      ++trial;
+      return false;
+    }
+    patch.region = regionAround(patch.enveloped.empty() ? patch.released : patch.enveloped);
+    return true;
+  }
+
+  /// Moves the enveloped stars back to the lattice and the nodes around them part of the way.
+  /// @return whether no tet is inverted then
+  bool relax(Patch& patch) {
+    for (const std::int32_t n : patch.region) patch.former.push_back(positions_[n]);
+    Nodes core = patch.enveloped;
+    for (const std::int32_t n : patch.enveloped) addStar(n, true, core);
+    sortUnique(core);
+    for (int ring = kPatchRings - 1; ring >= 0; --ring) {
+      const double kept = static_cast<double>(ring) / kPatchRings;
+      for (const std::int32_t n : grown(core, ring)) {
+        const auto at = std::ranges::lower_bound(patch.region, n) - patch.region.begin();
+        positions_[n] = kept * patch.former[at] + (1 - kept) * background_.positions[n];
+      }
+    }
+    return std::ranges::all_of(patch.region, [&](std::int32_t n) {
+      return std::ranges::all_of(stars_.of(n), [&](std::int32_t t) {
+        const auto& [a, b, c, d] = background_.tets[t];
+        return !set_.isKept(t) ||
+               shapeMeasure(positions_[d], positions_[a], positions_[b], positions_[c]) < kWorstStart;
+      });
+    });
+  }
+
   bool isTaken(const Nodes& nodes) const {
     return std::ranges::any_of(nodes, [&](std::int32_t n) { return patchOf_[n] != kNone; });
   }
@@ -186,14 +238,36 @@ class LocalRepair {
   }
 
   /// What is given up at a spot in the k-th trial: its shallowest enveloped node; that of all spots around
-  /// too; all the nodes at the spot; then one after the other. Empty when all has been tried.
-  Nodes choiceAt(const Spot& spot, std::size_t trial) const {
-    const Nodes nodes = envelopedAt(spot);
-    if (nodes.empty() || trial > nodes.size() + 1) return {};
-    if (trial == 0) return {nodes[0]};
-    if (trial == 1) return shallowestAround(nodes[0]);
-    if (trial == 2) return nodes;
-    return {nodes[trial - 2]};
+  /// too; all the nodes at the spot; then one after the other. After these its boundary nodes are taken in,
+  /// one after the other. Empty when all has been tried.
+  Choice choiceAt(const Spot& spot, std::size_t trial) const {
+    const Nodes inner = envelopedAt(spot);
+    const std::size_t releases = inner.empty() ? 0 : inner.size() + 2;
+    if (trial >= releases) {
+      const Nodes outer = boundaryAt(spot);
+      return trial - releases < outer.size() ? Choice{{}, outer[trial - releases]} : Choice{};
+    }
+    if (trial == 0) return {{inner[0]}};
+    if (trial == 1) return {shallowestAround(inner[0])};
+    if (trial == 2) return {inner};
+    return {{inner[trial - 2]}};
+  }
+
+  /// The boundary nodes at a spot, those of the bad tet itself first; of each kind that whose star reaches
+  /// out least.
+  Nodes boundaryAt(const Spot& spot) const {
+    Nodes around;
+    for (const std::int32_t n : spot.nodes) addStar(n, true, around);
+    sortUnique(around);
+    std::vector<std::tuple<bool, double, std::int32_t>> found;
+    for (const std::int32_t n : around) {
+      if (set_.isBoundary(n) && !set_.isEnveloped(n))
+        found.emplace_back(std::ranges::find(spot.nodes, n) == spot.nodes.end(), set_.outsideCost(n), n);
+    }
+    std::ranges::sort(found);
+    Nodes nodes;
+    for (const auto& [beside, cost, v] : found | std::views::take(kMostOuter)) nodes.push_back(v);
+    return nodes;
   }
 
   /// The enveloped nodes of the tets at a spot, the shallowest first.
@@ -229,6 +303,8 @@ class LocalRepair {
 
   void putBack(const Patch& patch) {
     for (const std::int32_t n : patch.released) set_.envelope(n);
+    for (const std::int32_t n : patch.enveloped) set_.release(n);
+    for (std::size_t n = 0; n < patch.former.size(); ++n) positions_[patch.region[n]] = patch.former[n];
   }
 
   /// The nodes within a few rings of what was released.

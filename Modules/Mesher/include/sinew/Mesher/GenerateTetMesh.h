@@ -33,7 +33,7 @@ struct GenerateTetMeshReport {
   };
   std::vector<Stage> stages;       ///< lattice, candidate, compression, in this order
   int repairPasses = 0;            ///< passes of the T1-T3 repair
-  bool repairCapReached = false;   ///< the candidate still had violations: the mesh was refused
+  std::int64_t nodesReleased = 0;  ///< lattice nodes that it gave up where enveloping came to no end
   std::int64_t patchesTried = 0;   ///< places with bad tets where the candidate gave way
   std::int64_t patchesMended = 0;  ///< those that are better for it
   double maxBoundaryPhi = 0;       ///< largest |phi| at a boundary node, mm
