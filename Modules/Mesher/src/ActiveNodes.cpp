@@ -7,7 +7,7 @@
 namespace sinew {
 namespace {
 
-constexpr int kRings = 4;  // rings of nodes below the surface that take part
+constexpr int kRings = 2;  // rings of nodes below the surface that take part
 constexpr double kGreenShape =
     1.2;  // F of a tet above this (BCC 1.157): its nodes take part wherever they lie
 

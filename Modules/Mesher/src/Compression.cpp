@@ -19,11 +19,11 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::size_t kGrain = 128;  // nodes per task
-constexpr double kFirstCap = 4;      // F that the first snap may cost
+constexpr double kFirstCap = 6;      // F that the first snap may cost
 constexpr double kLastCap = 14;
-constexpr double kCapGrowth = 1.25;  // per round
-constexpr double kStill = 0.002;     // edge lengths: a smaller step does not stir the neighbours
-constexpr int kFullRounds = 3;       // rounds after which only the surroundings of late nodes go on
+constexpr double kCapGrowth = 1.4;  // per round
+constexpr double kStill = 0.002;    // edge lengths: a smaller step does not stir the neighbours
+constexpr int kFullRounds = 3;      // rounds after which only the surroundings of late nodes go on
 constexpr int kLateRings = 2;
 
 /// One stretch of smooth descent: sweeps on the sum of F^q over the nodes whose worst F is above a threshold.
@@ -35,11 +35,18 @@ struct Descent {
   double ceiling = kInfinity;
 };
 constexpr Descent kSettle{1, 2};
-constexpr std::array<Descent, 4> kPolish{{{2, 4}, {4, 8, 1.5}, {4, 16, 2.0}, {2, 1, 0, 1.6}}};
+constexpr std::array<Descent, 4> kPolish{{{1, 4}, {3, 8, 1.5}, {3, 16, 2.0}, {1, 1, 0, 1.6}}};
 
-constexpr int kFinishSweeps = 16;
-constexpr int kFinishPower = 16;
-constexpr double kFinishAbove = 1.02;  // goal measure above which a tet is worth the last descent
+/// One stretch of the last descent: on the sum of m^power over the stars of the nodes of tets with m > above.
+struct Finish {
+  int sweeps;
+  int power;
+  double above;
+  double decisive;              ///< tets below this part of the star's worst m do not count in the gradient
+  double hopeless = kInfinity;  ///< stars with a worse m are left alone
+};
+/// The higher power takes stars over the line that are near it; it would only spread what is bad elsewhere.
+constexpr std::array<Finish, 2> kFinish{{{12, 16, 1.02, 0.7}, {8, 64, 0.985, 0.9, 1.1}}};
 
 class Compressor {
  public:
@@ -78,7 +85,7 @@ class Compressor {
       stirAbove(descent.threshold);
       descend(descent);
     }
-    finish();
+    for (const Finish& stretch : kFinish) finish(stretch);
     for (const std::int32_t n : unsnapped()) report.unsnapped.push_back(active_.nodes[n]);
     std::ranges::sort(report.unsnapped);
     return report;
@@ -247,15 +254,14 @@ class Compressor {
     }
   }
 
-  /// The last descent: on the sum of m^p over the stars of the nodes of tets that miss the goals.
-  void finish() {
+  void finish(const Finish& stretch) {
     std::fill(stirred_.begin(), stirred_.end(), std::uint8_t{1});
-    awake_ = nodesOfWorstTets();
-    for (int sweep = 0; sweep < kFinishSweeps && any(awake_); ++sweep) {
+    awake_ = nodesOfWorstTets(stretch.above);
+    for (int sweep = 0; sweep < stretch.sweeps && any(awake_); ++sweep) {
       forEachNode([&](std::int32_t n, NodeStar&) {
-        if (std::exchange(stirred_[n], std::uint8_t{0}) != 0) descendGoal(n);
+        if (std::exchange(stirred_[n], std::uint8_t{0}) != 0) descendGoal(n, stretch);
       });
-      awake_ = nodesOfWorstTetsAroundAwake();
+      awake_ = nodesOfWorstTetsAroundAwake(stretch.above);
     }
     std::fill(awake_.begin(), awake_.end(), std::uint8_t{1});
   }
@@ -268,10 +274,10 @@ class Compressor {
     return goalMeasure(x, mesh_.nodes[face[0]], mesh_.nodes[face[1]], mesh_.nodes[face[2]]);
   }
 
-  std::vector<std::uint8_t> nodesOfWorstTets() const {
+  std::vector<std::uint8_t> nodesOfWorstTets(double above) const {
     std::vector<std::uint8_t> flags(active_.size(), 0);
     for (const Tet& tet : mesh_.tets) {
-      if (goalOf(mesh_.nodes[tet[3]], {tet[0], tet[1], tet[2]}) <= kFinishAbove) continue;
+      if (goalOf(mesh_.nodes[tet[3]], {tet[0], tet[1], tet[2]}) <= above) continue;
       for (const std::int32_t v : tet) {
         if (active_.indexOf[v] >= 0) flags[active_.indexOf[v]] = 1;
       }
@@ -280,13 +286,13 @@ class Compressor {
   }
 
   /// Only tets with a node that was awake can have changed, and a tet without one was good.
-  std::vector<std::uint8_t> nodesOfWorstTetsAroundAwake() const {
+  std::vector<std::uint8_t> nodesOfWorstTetsAroundAwake(double above) const {
     std::vector<std::uint8_t> flags(active_.size(), 0);
     for (std::size_t n = 0; n < awake_.size(); ++n) {
       if (awake_[n] == 0) continue;
       const Vector3d& x = mesh_.nodes[active_.nodes[n]];
       for (const StarFaceNodes& face : active_.star(static_cast<std::int32_t>(n))) {
-        if (goalOf(x, face) <= kFinishAbove) continue;
+        if (goalOf(x, face) <= above) continue;
         flags[n] = 1;
         for (const std::int32_t v : face) {
           if (active_.indexOf[v] >= 0) flags[active_.indexOf[v]] = 1;
@@ -297,10 +303,10 @@ class Compressor {
   }
 
   /// Sum of m^p, or anything above `enough` once it is.
-  double goalEnergy(const Vector3d& x, std::span<const StarFaceNodes> tets, double enough = kInfinity) const {
+  double goalEnergy(const Vector3d& x, std::span<const StarFaceNodes> tets, int p,
+                    double enough = kInfinity) const {
     double energy = 0;
-    for (std::size_t t = 0; t < tets.size() && energy <= enough; ++t)
-      energy += power(goalOf(x, tets[t]), kFinishPower);
+    for (std::size_t t = 0; t < tets.size() && energy <= enough; ++t) energy += power(goalOf(x, tets[t]), p);
     return energy;
   }
 
@@ -309,33 +315,35 @@ class Compressor {
     std::vector<StarFaceNodes> tets;
     std::size_t decisive = 0;
     double energy = 0;
+    double worst = 0;
     double shortestEdge = kInfinity;
   };
 
-  GoalStar goalStar(const Vector3d& x, std::span<const StarFaceNodes> tets) const {
-    constexpr double kDecisive = 0.7;  // of the worst measure: less is 1/300 to the power of 16
+  GoalStar goalStar(const Vector3d& x, std::span<const StarFaceNodes> tets, const Finish& stretch) const {
     GoalStar star{{tets.begin(), tets.end()}};
     std::vector<double> measures;
     for (const StarFaceNodes& face : tets) {
       measures.push_back(goalOf(x, face));
-      star.energy += power(measures.back(), kFinishPower);
+      star.worst = std::max(star.worst, measures.back());
+      star.energy += power(measures.back(), stretch.power);
       for (const std::int32_t v : face)
         star.shortestEdge = std::min(star.shortestEdge, (mesh_.nodes[v] - x).norm());
     }
-    const double least = kDecisive * *std::max_element(measures.begin(), measures.end());
     for (std::size_t t = 0; t < tets.size(); ++t)
-      if (measures[t] >= least) std::swap(star.tets[star.decisive++], star.tets[t]);
+      if (measures[t] >= stretch.decisive * star.worst) std::swap(star.tets[star.decisive++], star.tets[t]);
     return star;
   }
 
-  void descendGoal(std::int32_t n) {
+  void descendGoal(std::int32_t n, const Finish& stretch) {
     const Vector3d x = position(n);
-    const GoalStar star = goalStar(x, active_.star(n));
+    const GoalStar star = goalStar(x, active_.star(n), stretch);
+    if (star.worst > stretch.hopeless) return;
     const std::span<const StarFaceNodes> decisive(star.tets.data(), star.decisive);
     Vector3d gradient;
     for (int axis = 0; axis < 3; ++axis) {
       const Vector3d offset = 1e-4 * star.shortestEdge * Vector3d::Unit(axis);
-      gradient[axis] = goalEnergy(x + offset, decisive) - goalEnergy(x - offset, decisive);
+      gradient[axis] =
+          goalEnergy(x + offset, decisive, stretch.power) - goalEnergy(x - offset, decisive, stretch.power);
     }
     if (isBoundary(n)) {
       Eigen::Matrix<double, 3, 2> tangents;
@@ -348,7 +356,7 @@ class Compressor {
       const Vector3d moved = x - step * star.shortestEdge / norm * gradient;
       const std::optional<Vector3d> target =
           isBoundary(n) ? project_(moved, level_[n]) : std::optional(moved);
-      if (target && goalEnergy(*target, star.tets, star.energy) < star.energy) {
+      if (target && goalEnergy(*target, star.tets, stretch.power, star.energy) < star.energy) {
         moveTo(n, *target);
         return;
       }

@@ -1,14 +1,14 @@
 #include "LocalRepair.h"
 
-#include "GoalMeasure.h"
 #include "KeptSet.h"
 #include "NodeStarEnergy.h"
+#include "RepairSpot.h"
 #include "sinew/Mesher/Compression.h"
-#include "sinew/Mesher/MeshQuality.h"
 
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <ranges>
 #include <stdexcept>
 #include <string>
@@ -18,55 +18,16 @@
 namespace sinew {
 namespace {
 
-/// Beyond these a tet is worth a trial to mend it, and beyond the second ones it must go.
-struct Limits {
-  double aspectRatio, minDihedralDeg, maxDihedralDeg;
-
-  bool exceededBy(const TetQuality& q) const {
-    return q.aspectRatio > aspectRatio || q.minDihedralDeg < minDihedralDeg ||
-           q.maxDihedralDeg > maxDihedralDeg;
-  }
-};
-constexpr Limits kBad{3.5, 25, 140}, kGrave{4.2, 20, 142};
 constexpr int kMaxRounds = 300;
 constexpr int kMostRounds = 400;           // while there are grave spots
-constexpr int kPatchRings = 2;             // rings of nodes around what was given up that move again
+constexpr int kPatchRings = 2;             // rings of nodes around what has changed that move again
 constexpr std::size_t kMostReleased = 64;  // nodes, in a trial
-constexpr std::size_t kMostChoices = 6;    // nodes that are tried at a spot
-constexpr std::size_t kMostOuter = 10;
-constexpr std::size_t kMostEnveloped = 8;  // nodes, in a trial
-constexpr double kWorstStart = 100;        // F with which a trial may begin
+constexpr std::size_t kMostEnveloped = 8;
+constexpr std::size_t kMostInner = 6;   // enveloped nodes that are given up in turn at a spot
+constexpr std::size_t kMostOuter = 10;  // boundary nodes that are taken in in turn at a spot
+constexpr double kWorstStart = 100;     // F with which a trial may begin
 
 using Nodes = std::vector<std::int32_t>;
-
-/// A place that needs repair: the lattice nodes of a bad tet, or a boundary node off the surface.
-struct Spot {
-  Nodes nodes;
-  double badness;  ///< goal measure; infinite for a node off the surface
-  bool grave;      ///< must go, even at the price of other bad tets
-
-  bool operator<(const Spot& other) const {
-    return badness != other.badness ? badness > other.badness : nodes < other.nodes;
-  }
-};
-
-/// How bad a patch is: the grave spots, then a sum over the others in which the worst outweighs several that
-/// are just bad.
-class Badness {
- public:
-  void add(const Spot& spot) {
-    constexpr int kPower = 8;
-    graves_ += spot.grave;
-    if (!spot.grave) sum_ += power(spot.badness, kPower);
-  }
-  bool operator<(const Badness& other) const {
-    return graves_ != other.graves_ ? graves_ < other.graves_ : sum_ < other.sum_;
-  }
-
- private:
-  int graves_ = 0;
-  double sum_ = 0;
-};
 
 /// What a trial changes: nodes to give up, or one to take in.
 struct Choice {
@@ -80,11 +41,11 @@ struct Choice {
 struct Patch {
   Nodes key;                ///< the spot's nodes
   bool lastResort = false;  ///< stays even when it is no better: nothing else has helped
-  Nodes released;
-  Nodes enveloped;
-  Nodes region;
-  std::vector<Eigen::Vector3d> former;  ///< positions of the region's nodes before the trial
-  Badness before, after;
+  Nodes released{};
+  Nodes enveloped{};
+  Nodes region{};
+  std::vector<Eigen::Vector3d> former{};  ///< positions of the region's nodes before an enveloping trial
+  Badness before{}, after{};
 };
 
 void sortUnique(Nodes& nodes) {
@@ -109,7 +70,7 @@ class LocalRepair {
     TetMesh mesh = extractMesh(background, set_.keep(), options.label, &latticeNodes);
     const CompressionReport report = compressOntoSurface(mesh, phi, {.edgeLength = options.edgeLength});
     for (std::size_t n = 0; n < latticeNodes.size(); ++n) positions_[latticeNodes[n]] = mesh.nodes[n];
-    spots_ = spotsOf(mesh, latticeNodes, report.unsnapped);
+    spots_ = repairSpots(mesh, latticeNodes, report.unsnapped);
   }
 
   void run(LocalRepairReport& report) {
@@ -140,22 +101,6 @@ class LocalRepair {
     return std::ranges::count_if(spots_, [](const Spot& spot) { return spot.badness == kInfinity; });
   }
 
-  static std::vector<Spot> spotsOf(const TetMesh& mesh, const Nodes& latticeNodes, const Nodes& unsnapped) {
-    std::vector<Spot> spots;
-    for (const std::int32_t n : unsnapped) spots.push_back({{latticeNodes[n]}, kInfinity, true});
-    const auto& x = mesh.nodes;
-    for (const auto& [a, b, c, d] : mesh.tets) {
-      const double measure = goalMeasure(x[d], x[a], x[b], x[c]);
-      if (measure <= 1) continue;
-      const TetQuality quality = tetQuality(x[a], x[b], x[c], x[d]);
-      if (!kBad.exceededBy(quality)) continue;
-      spots.push_back({{latticeNodes[a], latticeNodes[b], latticeNodes[c], latticeNodes[d]},
-                       measure,
-                       kGrave.exceededBy(quality)});
-    }
-    return spots;
-  }
-
   /// Spots from the worst on, each with what is tried there next; patches that would touch wait for a later
   /// round.
   std::vector<Patch> choosePatches() {
@@ -164,50 +109,54 @@ class LocalRepair {
     Nodes around;  // of the patches chosen so far: a spot here would only give a patch that touches them
     for (const Spot& spot : spots_) {
       if (std::ranges::any_of(spot.nodes, [&](std::int32_t n) { return nearPatch_[n] != 0; })) continue;
-      Patch patch;
-      patch.key = spot.nodes;
-      if (!change(spot, patch)) continue;
-      if (isTaken(patch.region)) {
-        putBack(patch);
-        continue;
-      }
-      if (!patch.enveloped.empty() && !relax(patch)) {
-        putBack(patch);
-        ++trials_[spot.nodes];
-        continue;
-      }
-      take(patch.region, static_cast<std::int32_t>(patches.size()));
-      for (const std::int32_t n : grown(patch.region, kPatchRings)) {
+      std::optional<Patch> patch = nextPatch(spot);
+      if (!patch) continue;
+      take(patch->region, static_cast<std::int32_t>(patches.size()));
+      for (const std::int32_t n : grown(patch->region, kPatchRings)) {
         nearPatch_[n] = 1;
         around.push_back(n);
       }
-      patches.push_back(std::move(patch));
+      patches.push_back(std::move(*patch));
     }
     for (const std::int32_t n : around) nearPatch_[n] = 0;
     return patches;
   }
 
-  /// Changes the set as the next trial at a spot wants; false when it cannot, or when all has been tried.
-  bool change(const Spot& spot, Patch& patch) {
+  /// Changes the set as the next possible trial at a spot wants; empty when all has been tried, or when the
+  /// patch would touch another.
+  std::optional<Patch> nextPatch(const Spot& spot) {
     std::size_t& trial = trials_[spot.nodes];
-    Choice choice = choiceAt(spot, trial);
-    patch.lastResort = spot.grave && choice.empty();
-    if (patch.lastResort) choice = choiceAt(spot, 0);
-    if (choice.empty()) return false;
-    if (choice.envelope != kNone)
-      patch.enveloped = envelopeNode(set_, choice.envelope, kMostEnveloped);
-    else
-      patch.released = patch.lastResort ? releaseNodes(set_, choice.release)
-                                        : releaseNodes(set_, choice.release, kMostReleased);
-    if (patch.released.empty() && patch.enveloped.empty()) {
+    while (true) {
+      Choice choice = choiceAt(spot, trial);
+      Patch patch{.key = spot.nodes, .lastResort = spot.grave && choice.empty()};
+      if (patch.lastResort) choice = choiceAt(spot, 0);
+      if (choice.empty()) return std::nullopt;
+      change(choice, patch);
+      if (isTaken(patch.region)) {
+        putBack(patch);
+        return std::nullopt;
+      }
+      const bool changed = !patch.released.empty() || !patch.enveloped.empty();
+      if (changed && (patch.enveloped.empty() || relax(patch))) return patch;
+      putBack(patch);
+      if (patch.lastResort) return std::nullopt;
       ++trial;
-      return false;
     }
-    patch.region = regionAround(patch.enveloped.empty() ? patch.released : patch.enveloped);
-    return true;
   }
 
-  /// Moves the enveloped stars back to the lattice and the nodes around them part of the way.
+  void change(const Choice& choice, Patch& patch) {
+    if (choice.envelope != kNone) {
+      patch.enveloped = envelopeNode(set_, choice.envelope, kMostEnveloped);
+    } else if (patch.lastResort) {
+      patch.released = releaseNodes(set_, choice.release);
+    } else {
+      patch.released = releaseNodes(set_, choice.release, kMostReleased);
+    }
+    patch.region = regionAround(patch.enveloped.empty() ? patch.released : patch.enveloped);
+  }
+
+  /// Moves the enveloped stars back to the lattice and the nodes around them part of the way: what was
+  /// compressed without the new tets would invert them.
   /// @return whether no tet is inverted then
   bool relax(Patch& patch) {
     for (const std::int32_t n : patch.region) patch.former.push_back(positions_[n]);
@@ -282,9 +231,8 @@ class LocalRepair {
     }
     std::ranges::sort(found);
     found.erase(std::unique(found.begin(), found.end()), found.end());
-    if (found.size() > kMostChoices) found.resize(kMostChoices);
     Nodes nodes;
-    for (const auto& [depth, v] : found) nodes.push_back(v);
+    for (const auto& [depth, v] : found | std::views::take(kMostInner)) nodes.push_back(v);
     return nodes;
   }
 
@@ -307,10 +255,10 @@ class LocalRepair {
     for (std::size_t n = 0; n < patch.former.size(); ++n) positions_[patch.region[n]] = patch.former[n];
   }
 
-  /// The nodes within a few rings of what was released.
-  Nodes regionAround(const Nodes& released) const {
-    Nodes region = released;
-    for (const std::int32_t n : released) addStar(n, false, region);
+  /// The nodes within a few rings of what has changed.
+  Nodes regionAround(const Nodes& changed) const {
+    Nodes region = changed;
+    for (const std::int32_t n : changed) addStar(n, false, region);
     sortUnique(region);
     return grown(std::move(region), kPatchRings);
   }
@@ -350,7 +298,7 @@ class LocalRepair {
     for (std::size_t n = 0; n < region.size(); ++n) region[n] = isInner(latticeNodes[n]);
     const CompressionReport report =
         compressOntoSurface(local, phi_, {.edgeLength = options_.edgeLength}, region);
-    const std::vector<Spot> found = spotsOf(local, latticeNodes, report.unsnapped);
+    const std::vector<Spot> found = repairSpots(local, latticeNodes, report.unsnapped);
     for (const Spot& spot : found) {
       if (const std::int32_t p = patchAt(spot.nodes); p != kNone) patches[p].after.add(spot);
     }

@@ -22,10 +22,10 @@ struct LocalRepairReport {
 };
 
 /// Compresses a candidate onto phi = 0 and repairs what stays bad: at every spot where a boundary node cannot
-/// reach the surface or a tet stays badly shaped, the candidate gives up one of the nodes nearby, and the
-/// patch around it is compressed again. A patch that is not better than before is put back as it was, and
-/// another node is tried. Patches are far enough apart not to touch, so that a round treats many at once; the
-/// result does not depend on the number of threads.
+/// reach the surface or a tet stays badly shaped, the candidate gives up nodes nearby or takes one in, and
+/// the patch around it is compressed again. A patch that is not better than before is put back as it was, and
+/// another change is tried. Patches are far enough apart not to touch, so that a round treats many at once;
+/// the result does not depend on the number of threads.
 /// @throws std::runtime_error when a boundary node cannot be brought onto the surface
 /// Cost: the compression, and O(patch) per trial.
 TetMesh compressAndRepair(const LatticeMesh& background, const NodeStars& stars, const Candidate& candidate,
