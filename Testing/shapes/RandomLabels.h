@@ -12,11 +12,11 @@ struct Drawing {
   const char* name;
   int kind;     ///< of ShapeMaker; or one of the following, which only voxels can show
   bool cut;     ///< by the edge of the scan
-  bool simple;  ///< one voxel thick or thicker, and no gap so narrow: the mesh can have its topology
+  bool simple;  ///< one voxel thick or thicker and without holes: the mesh has its topology
 };
 inline constexpr int kVoxelBridge = ShapeMaker::kKinds, kTouchingBlocks = kVoxelBridge + 1;
 inline constexpr std::array<Drawing, 11> kDrawings{{{"blended spheres", 0, false, false},
-                                                    {"torus", 1, false, true},
+                                                    {"torus", 1, false, false},
                                                     {"gyroid piece", 2, false, false},
                                                     {"box", 5, false, true},
                                                     {"thin plate", 6, false, true},
