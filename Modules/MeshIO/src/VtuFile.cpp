@@ -1,13 +1,12 @@
 #include "sinew/MeshIO/VtuFile.h"
 
-#include "VtkErrorTrap.h"
+#include "VtkReading.h"
 #include "sinew/Mesher/MeshConditions.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkDoubleArray.h>
-#include <vtkErrorCode.h>
 #include <vtkFloatArray.h>
 #include <vtkObjectFactory.h>
 #include <vtkPointData.h>
@@ -39,10 +38,6 @@ constexpr int kCompressionLevel = 1;
 /// FEBio Studio reads an array only when it is one block; the bound keeps the compressor's buffer small for
 /// huge meshes.
 constexpr std::size_t kBlockBytes = std::size_t{1} << 26;
-
-[[noreturn]] void fail(const fs::path& file, const std::string& what) {
-  throw std::runtime_error(file.string() + ": " + what);
-}
 
 // ---- writing ----
 
@@ -136,35 +131,21 @@ void checkSize(const std::string& name, std::size_t values, std::size_t wanted, 
 template <class Reader>
 vtkSmartPointer<vtkUnstructuredGrid> readWith(const fs::path& file) {
   const auto reader = vtkSmartPointer<Reader>::New();
-  const VtkErrorTrap trap;
   reader->SetFileName(file.c_str());
   if constexpr (std::is_same_v<Reader, vtkUnstructuredGridReader>) {
     reader->ReadAllScalarsOn();
     reader->ReadAllFieldsOn();
   }
-  reader->Update();
-  if (trap.failed()) fail(file, "damaged or not an unstructured grid (" + trap.firstError() + ")");
-  if (reader->GetErrorCode() != vtkErrorCode::NoError)
-    fail(file, vtkErrorCode::GetStringFromErrorCode(reader->GetErrorCode()));
+  update(reader, file, "an unstructured grid");
   return reader->GetOutput();
 }
 
 vtkSmartPointer<vtkUnstructuredGrid> readGrid(const fs::path& file) {
-  if (!fs::exists(file)) fail(file, "no such file");
-  if (!fs::is_regular_file(file) || !std::ifstream(file)) fail(file, "cannot be read");
+  requireReadable(file);
   const std::string extension = file.extension().string();
   if (extension == ".vtu") return readWith<vtkXMLUnstructuredGridReader>(file);
   if (extension == ".vtk") return readWith<vtkUnstructuredGridReader>(file);
   fail(file, "unknown kind of mesh; .vtu and .vtk can be read");
-}
-
-std::vector<Eigen::Vector3d> nodesOf(vtkUnstructuredGrid* grid, const fs::path& file) {
-  std::vector<Eigen::Vector3d> nodes(static_cast<std::size_t>(grid->GetNumberOfPoints()));
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    grid->GetPoint(static_cast<vtkIdType>(i), nodes[i].data());
-    if (!nodes[i].allFinite()) fail(file, "node " + std::to_string(i) + " has no finite coordinates");
-  }
-  return nodes;
 }
 
 /// The label of one cell: whole, and in the range of the original values.

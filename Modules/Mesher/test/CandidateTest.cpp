@@ -1,8 +1,8 @@
 #include "Background.h"
-#include "RandomShapes.h"
 #include "sinew/Mesher/Candidate.h"
 #include "sinew/Mesher/MeshConditions.h"
 #include "sinew/Mesher/MeshQuality.h"
+#include "sinew/TestSupport/RandomShapes.h"
 
 #include <gtest/gtest.h>
 

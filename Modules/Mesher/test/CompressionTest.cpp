@@ -1,9 +1,9 @@
 #include "Background.h"
 #include "GoalMeasure.h"
-#include "RandomShapes.h"
 #include "sinew/Mesher/Candidate.h"
 #include "sinew/Mesher/Compression.h"
 #include "sinew/Mesher/MeshQuality.h"
+#include "sinew/TestSupport/RandomShapes.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

@@ -1,7 +1,7 @@
-#include "RandomShapes.h"
 #include "sinew/Mesher/GenerateTetMesh.h"
 #include "sinew/Mesher/MeshConditions.h"
 #include "sinew/Mesher/MeshQuality.h"
+#include "sinew/TestSupport/RandomShapes.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -111,44 +111,6 @@ TEST(GenerateTetMesh, TheBoundaryNodesOfASphereLieAtItsRadius) {
       ASSERT_LT(r, radius);
     }
   }
-}
-
-/// The volume of phi < 0 by cells of size h, each filled in proportion to its distance.
-double sampledVolume(const SignedDistance& phi, double h) {
-  const Eigen::AlignedBox3d box = phi.bounds();
-  const Eigen::Array3i n = (box.sizes() / h).array().ceil().cast<int>();
-  double sum = 0;
-  for (int z = 0; z < n.z(); ++z)
-    for (int y = 0; y < n.y(); ++y)
-      for (int x = 0; x < n.x(); ++x) {
-        const Vector3d centre = box.min() + h * Vector3d(x + 0.5, y + 0.5, z + 0.5);
-        sum += std::clamp(0.5 - phi.value(centre) / h, 0.0, 1.0);
-      }
-  return sum * h * h * h;
-}
-
-constexpr unsigned kShapes = 42;
-
-TEST(GenerateTetMesh, RandomShapesEndInASoundMeshOrInOneLine) {
-  constexpr double edge = 2;
-  unsigned meshed = 0;
-  for (unsigned seed = 0; seed < kShapes; ++seed) {
-    // Every other shape is known only in the band that the mesher asks for.
-    const double band = seed % 4 < 2 ? kInfinite : 2 * edge;
-    const test::RandomShape shape = test::randomShape(seed, {.band = band});
-    SCOPED_TRACE("seed " + std::to_string(seed) + ", " + shape.name());
-    try {
-      const TetMesh mesh = generateTetMesh(shape, withEdge(edge));
-      expectSound(mesh, shape, edge);
-      EXPECT_LE(meshQuality(mesh).meanAspectRatio, 2.5);  // walls of one cube, all of it surface
-      // Edges are cut and gaps below the resolution are bridged, but no piece is lost.
-      EXPECT_NEAR(meshQuality(mesh).volume / sampledVolume(shape, 0.5), 1, 0.25);
-      ++meshed;
-    } catch (const std::runtime_error& error) {
-      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-    }
-  }
-  EXPECT_GE(meshed, kShapes - 2);
 }
 
 TEST(GenerateTetMesh, SameBitsForAnyNumberOfThreadsAndEveryRun) {

@@ -1,7 +1,7 @@
 #include "Background.h"
 #include "KeptSet.h"
-#include "RandomShapes.h"
 #include "sinew/Mesher/MeshConditions.h"
+#include "sinew/TestSupport/RandomShapes.h"
 
 #include <gtest/gtest.h>
 

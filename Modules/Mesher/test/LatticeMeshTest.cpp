@@ -1,7 +1,7 @@
 #include "Background.h"
 #include "LatticeOracle.h"
-#include "RandomShapes.h"
 #include "sinew/Mesher/LatticeMesh.h"
+#include "sinew/TestSupport/RandomShapes.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

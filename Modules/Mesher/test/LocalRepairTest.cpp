@@ -1,9 +1,9 @@
 #include "Background.h"
 #include "LocalRepair.h"
-#include "RandomShapes.h"
 #include "sinew/Mesher/Compression.h"
 #include "sinew/Mesher/MeshConditions.h"
 #include "sinew/Mesher/MeshQuality.h"
+#include "sinew/TestSupport/RandomShapes.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "VtkErrorTrap.h"
+
+#include <Eigen/Core>
+#include <vtkAlgorithm.h>
+#include <vtkErrorCode.h>
+#include <vtkPointSet.h>
+
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace sinew {
+
+[[noreturn]] inline void fail(const std::filesystem::path& file, const std::string& what) {
+  throw std::runtime_error(file.string() + ": " + what);
+}
+
+inline void requireReadable(const std::filesystem::path& file) {
+  if (!std::filesystem::exists(file)) fail(file, "no such file");
+  if (!std::filesystem::is_regular_file(file) || !std::ifstream(file)) fail(file, "cannot be read");
+}
+
+/// Runs a VTK reader. @param kind  what the file should be, for the message
+inline void update(vtkAlgorithm* reader, const std::filesystem::path& file, const char* kind) {
+  const VtkErrorTrap trap;
+  reader->Update();
+  if (trap.failed()) fail(file, std::string("damaged or not ") + kind + " (" + trap.firstError() + ")");
+  if (reader->GetErrorCode() != vtkErrorCode::NoError)
+    fail(file, vtkErrorCode::GetStringFromErrorCode(reader->GetErrorCode()));
+}
+
+inline std::vector<Eigen::Vector3d> nodesOf(vtkPointSet* points, const std::filesystem::path& file) {
+  std::vector<Eigen::Vector3d> nodes(static_cast<std::size_t>(points->GetNumberOfPoints()));
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    points->GetPoint(static_cast<vtkIdType>(i), nodes[i].data());
+    if (!nodes[i].allFinite()) fail(file, "node " + std::to_string(i) + " has no finite coordinates");
+  }
+  return nodes;
+}
+
+}  // namespace sinew
