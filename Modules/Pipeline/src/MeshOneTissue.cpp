@@ -5,6 +5,7 @@
 #include "MeasureFidelity.h"
 #include "OffsetSurface.h"
 #include "QualityArrays.h"
+#include "TopologyDifferences.h"
 #include "UnderResolution.h"
 #include "VolumeOffset.h"
 #include "WorstElements.h"
@@ -238,6 +239,7 @@ class TissueRun {
     const LevelSetTopology topology = levelSetTopology(*surface_);
     report_.levelSetComponents = topology.components;
     report_.levelSetEuler = topology.eulerCharacteristic;
+    compareTopology(mesh);
     const FidelityReport fidelity =
         measureFidelity(mesh, boundary.triangles, OffsetSurface(*surface_, surfaceOffset_), frame_, volumes_,
                         segmentation_, tissue_);
@@ -246,6 +248,19 @@ class TissueRun {
     report_.lost = fidelity.lost;
     if (!options_.withQuality) surface_.reset();
     lap("measuring");
+  }
+
+  void compareTopology(const TetMesh& mesh) {
+    report_.topologyDifferences = topologyDifferences(mesh, *surface_, frame_);
+    report_.topologyDifferenceCount = std::ssize(report_.topologyDifferences);
+    if (report_.topologyDifferences.size() > kListedTopologyDifferences)
+      report_.topologyDifferences.resize(kListedTopologyDifferences);
+    const double smallest = std::min(
+        plan_.sizes.smallest > 0 ? plan_.sizes.smallest : plan_.levelSet.gridSpacing, plan_.sizes.edge);
+    for (TopologyDifference& difference : report_.topologyDifferences)
+      difference.reason = difference.width < smallest
+                              ? "narrower than the smallest cubes allowed, " + number(smallest) + " mm"
+                              : "the cubes there are too large";
   }
 
   void lose() {

@@ -1,5 +1,6 @@
 #include "sinew/Pipeline/Report.h"
 
+#include "TopologyDifferences.h"
 #include "sinew/Pipeline/Memory.h"
 
 #include <nlohmann/json.hpp>
@@ -62,6 +63,18 @@ Json toJsonArray(const std::vector<WorstElement>& worst) {
   return list;
 }
 
+Json toJsonArray(const std::vector<TopologyDifference>& differences) {
+  Json list = Json::array();
+  for (const TopologyDifference& difference : differences)
+    list.push_back({{"change", toString(difference.change)},
+                    {"place_mm", toArray(difference.place)},
+                    {"width_mm", difference.width},
+                    {"euler_characteristic", difference.euler},
+                    {"volume_mm3", difference.volume},
+                    {"reason", difference.reason}});
+  return list;
+}
+
 /// Bins by their lower ends.
 template <class Counts>
 Json toJsonObject(const Json& from, const Counts& counts) {
@@ -96,6 +109,8 @@ Json toJsonObject(const TissueReport& report) {
           {"worst", toJsonArray(report.worst)},
           {"conditions", toJsonObject(report.conditions)},
           {"topology", topology},
+          {"topology_difference_count", report.topologyDifferenceCount},
+          {"topology_differences", toJsonArray(report.topologyDifferences)},
           {"fidelity", toJsonObject(report.fidelity)},
           {"lost", toJsonObject(report.lost)}};
 }

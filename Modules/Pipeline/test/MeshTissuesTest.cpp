@@ -231,6 +231,31 @@ TEST(MeshTissues, AnUnderResolvedTissueIsToldASizeThatHelps) {
   EXPECT_EQ(reportsOf({2}, options).front().status, TissueStatus::Meshed);
 }
 
+TEST(MeshTissues, APlaceWhereTheTopologyDiffersIsTold) {
+  Segmentation segmentation = ballsAndThread();
+  const Eigen::Vector3d place = segmentation.geometry.indexToPhysical() * Eigen::Vector3d(26, 15, 10);
+  for (std::int32_t& label : segmentation.layers[0]) label = label == 7 ? 5 : label;
+  for (int x = 20; x < 32; ++x)
+    segmentation.layers[0][x + 48 * (15 + 26 * 10)] = 5;  // a bridge of single voxels
+  updateTissueTable(segmentation);
+  const test::TempFolder folder;
+  MeshTissuesOptions options = coarse();
+  options.levelSet.smoothingVoxels = 0;  // a Gauss would wear the bridge away
+  const TissueReport report = meshTissues(segmentation, {0}, folder.path(), options).front();
+  ASSERT_EQ(report.topologyDifferences.size(), 1u);
+  EXPECT_EQ(report.topologyDifferenceCount, 1);
+  const TopologyDifference& bridge = report.topologyDifferences[0];
+  EXPECT_EQ(bridge.change, TopologyChange::BridgeLost);
+  EXPECT_LT((bridge.place - place).norm(), 6) << "the bridge is 12 voxels long";
+  EXPECT_GT(bridge.width, 0.5);
+  EXPECT_LT(bridge.width, 1.5);
+  EXPECT_EQ(bridge.euler, -2);
+  EXPECT_EQ(report.topology.components, 2);
+  EXPECT_EQ(report.levelSetComponents, 1);
+  EXPECT_NE(report.message.find("2 components instead of 1"), std::string::npos) << report.message;
+  EXPECT_NE(report.message.find("a bridge lost"), std::string::npos) << report.message;
+}
+
 TEST(MeshTissues, QualityGoesIntoTheFileOnRequest) {
   const test::TempFolder folder;
   MeshTissuesOptions options = coarse();

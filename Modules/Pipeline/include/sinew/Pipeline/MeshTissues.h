@@ -56,6 +56,29 @@ struct LostPieces {
   double volume = 0;  ///< mm^3
 };
 
+/// What a mesh did to the level set's shape at a place where the two differ in topology.
+enum class TopologyChange {
+  PieceLost,     ///< a piece of the shape has nothing in the mesh
+  BridgeLost,    ///< parts that the shape joins are apart in the mesh
+  SheetPierced,  ///< the mesh has a hole through a sheet that is whole
+  VoidOpened,    ///< the mesh has a void inside of the shape
+  VoidClosed,    ///< the mesh fills a void
+  HoleClosed,    ///< the mesh fills a hole through the shape
+  GapClosed,     ///< the mesh joins parts that the shape keeps apart
+  PieceAdded,    ///< a piece of the mesh has nothing in the shape
+};
+
+/// A place where the topology of a mesh differs from its level set's: where the change is narrowest.
+struct TopologyDifference {
+  TopologyChange change = TopologyChange::PieceLost;
+  Eigen::Vector3d place;   ///< LPS mm
+  double width = 0;        ///< of what the mesh has lost or closed, twice its largest |phi|, mm
+  std::int64_t euler = 0;  ///< what mending it would add to the Euler characteristic of the mesh's boundary
+  double volume = 0;       ///< of what was lost or closed; of bridges, sheets, holes, gaps a slice, mm^3
+  std::string reason;      ///< why the mesh is not like the level set there
+};
+inline constexpr std::size_t kListedTopologyDifferences = 20;
+
 /// One of the worst tets of a mesh by one measure.
 struct WorstElement {
   std::string measure;       ///< `aspect_ratio`, `min_dihedral_deg` or `max_dihedral_deg`
@@ -80,6 +103,8 @@ struct TissueReport {
   MeshTopology topology;
   std::int64_t levelSetComponents = 0;
   std::int64_t levelSetEuler = 0;
+  std::int64_t topologyDifferenceCount = 0;
+  std::vector<TopologyDifference> topologyDifferences;  ///< up to kListedTopologyDifferences, widest first
   Fidelity fidelity;
   LostPieces lost;
 };
