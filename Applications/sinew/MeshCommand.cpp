@@ -47,8 +47,10 @@ void addOptions(CommandLine& line, MeshCommand& command) {
       line.addLength("--edge-length", meshing.edgeLength, "cube size of the lattice at the surface");
   line.addLength("--max-edge-length", meshing.maxEdgeLength,
                  "cube size deep inside; 0: eight times the edge length");
-  line.addLength("--min-edge-length", meshing.minEdgeLength,
-                 "smallest cube that refinement may make; 0: the level set's spacing");
+  line.addLength(
+      "--min-edge-length", meshing.minEdgeLength,
+      "smallest cube that refinement may make; 0: half a voxel, or a quarter of the edge length where "
+      "that is more");
   app.add_option("--size", command.sizes, "edge length of one tissue; repeatable")
       ->type_name("TISSUE=LENGTH")
       ->expected(1)

@@ -255,8 +255,7 @@ class TissueRun {
     report_.topologyDifferenceCount = std::ssize(report_.topologyDifferences);
     if (report_.topologyDifferences.size() > kListedTopologyDifferences)
       report_.topologyDifferences.resize(kListedTopologyDifferences);
-    const double smallest = std::min(
-        plan_.sizes.smallest > 0 ? plan_.sizes.smallest : plan_.levelSet.gridSpacing, plan_.sizes.edge);
+    const double smallest = std::min(plan_.sizes.smallest, plan_.sizes.edge);
     for (TopologyDifference& difference : report_.topologyDifferences)
       difference.reason = difference.width < smallest
                               ? "narrower than the smallest cubes allowed, " + number(smallest) + " mm"

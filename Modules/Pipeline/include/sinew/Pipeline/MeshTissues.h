@@ -21,7 +21,9 @@ struct MeshTissuesOptions {
   /// root of its volume.
   Length edgeLength = Length::voxels(2);
   Length maxEdgeLength = 0;  ///< cube size deep inside; 0: eight times the edge length
-  Length minEdgeLength = 0;  ///< smallest cube that refinement may make; 0: the level set's spacing
+  /// Smallest cube that refinement may make; 0: half a voxel, or a quarter of the edge length where that is
+  /// more.
+  Length minEdgeLength = 0;
   std::map<std::string, Length> sizes;  ///< tissue, by a wish as in selectTissues -> its own edge length, > 0
   /// Choose the edge length of tissues without one in `sizes` for so many tets within 10 %; 0: off.
   /// Refinement then goes two levels down at most.
@@ -95,7 +97,7 @@ struct TissueReport {
   TissueStatus status = TissueStatus::Failed;
   std::string message;       ///< one line: why it was lost or failed, or a warning
   double edgeLength = 0;     ///< as taken for this tissue, mm
-  double minEdgeLength = 0;  ///< that refinement might make, mm; 0: the level set's spacing
+  double minEdgeLength = 0;  ///< that refinement might make, mm
   std::vector<std::pair<std::string, double>> seconds;  ///< stage -> wall seconds, in order
   MeshQuality quality;
   std::vector<WorstElement> worst;  ///< up to kRankedTets of each measure, the worst first
