@@ -79,7 +79,7 @@ void addOptions(CommandLine& line, MeshCommand& command) {
       ->check(CLI::IsMember({"optimization"}))
       ->capture_default_str();
   app.add_flag("--preserve-volume", meshing.preserveVolume,
-               "move the target surface until the mesh has the volume of the level set within 0.1 %");
+               "keep the volume of the level set within 0.1 % instead of 0.5 %");
   app.add_flag("--with-quality", meshing.withQuality,
                "write the arrays aspect_ratio, min_dihedral_deg, max_dihedral_deg and phi to the meshes");
   app.footer(

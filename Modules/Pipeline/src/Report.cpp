@@ -15,6 +15,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;  // keeps the order in which fields are written here
 
+Json toArray(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
 Json toJsonObject(const MeshQuality& quality) {
   return {{"max_aspect_ratio", quality.maxAspectRatio},  {"mean_aspect_ratio", quality.meanAspectRatio},
           {"min_dihedral_deg", quality.minDihedralDeg},  {"max_dihedral_deg", quality.maxDihedralDeg},
@@ -41,6 +43,7 @@ Json toJsonObject(const Fidelity& fidelity) {
           {"max_boundary_phi_mm", fidelity.maxBoundaryPhi},
           {"surface_rms_mm", fidelity.surfaceRms},
           {"surface_max_mm", fidelity.surfaceMax},
+          {"surface_max_place_mm", toArray(fidelity.surfaceMaxPlace)},
           {"volume_mm3", fidelity.volume},
           {"label_volume_mm3", fidelity.labelVolume},
           {"level_set_volume_mm3", fidelity.levelSetVolume},
@@ -50,8 +53,6 @@ Json toJsonObject(const Fidelity& fidelity) {
 Json toJsonObject(const LostPieces& lost) {
   return {{"components", lost.components}, {"volume_mm3", lost.volume}};
 }
-
-Json toArray(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 Json toJsonArray(const std::vector<WorstElement>& worst) {
   Json list = Json::array();

@@ -63,10 +63,10 @@ TEST(Report, HasTheFieldsThatReadersExpect) {
             (std::vector<std::string>{"faces_of_many_tets", "interior_edges_between_boundary_nodes",
                                       "interior_faces_with_three_boundary_nodes", "nonmanifold_edges",
                                       "nonmanifold_nodes", "tets_with_four_boundary_nodes"}));
-  EXPECT_EQ(
-      keys(tissue["fidelity"]),
-      (std::vector<std::string>{"dice", "label_volume_mm3", "level_set_volume_mm3", "max_boundary_phi_mm",
-                                "surface_max_mm", "surface_offset_mm", "surface_rms_mm", "volume_mm3"}));
+  EXPECT_EQ(keys(tissue["fidelity"]),
+            (std::vector<std::string>{"dice", "label_volume_mm3", "level_set_volume_mm3",
+                                      "max_boundary_phi_mm", "surface_max_mm", "surface_max_place_mm",
+                                      "surface_offset_mm", "surface_rms_mm", "volume_mm3"}));
   EXPECT_EQ(keys(tissue["lost"]), (std::vector<std::string>{"components", "volume_mm3"}));
 }
 

@@ -31,8 +31,8 @@ struct MeshTissuesOptions {
   double curvature = 1.0;  ///< see GenerateTetMeshOptions
   Length tolerance = 0;    ///< see GenerateTetMeshOptions; 0: off
   int levels = 0;          ///< see GenerateTetMeshOptions
-  /// Move the target surface, by a tenth of an edge length at most and in at most four meshings, until the
-  /// mesh has the level set's volume within 0.1 %.
+  /// Keep the level set's volume within 0.1 % instead of 0.5 %, by moving the boundary by a tenth of an edge
+  /// length at most instead of a twentieth, and in up to three new meshings where that does not do.
   bool preserveVolume = false;
   bool withQuality = false;            ///< write arrays of quality and level set to the files
   LevelSetFromLabelsOptions levelSet;  ///< labels to distance
@@ -41,14 +41,15 @@ struct MeshTissuesOptions {
 enum class TissueStatus { Meshed, Lost, Failed };
 
 struct Fidelity {
-  double surfaceOffset = 0;   ///< the mesh lies on phi = surfaceOffset, mm: > 0 where that keeps the volume
+  double surfaceOffset = 0;   ///< the mesh lies on phi = surfaceOffset, mm: not 0 where that keeps the volume
   double maxBoundaryPhi = 0;  ///< largest distance of a boundary node from that surface, mm
   double surfaceRms = 0;      ///< distance of boundary nodes, edge midpoints and centroids from it, mm
   double surfaceMax = 0;      ///< mm
-  double volume = 0;          ///< of the mesh, mm^3
-  double labelVolume = 0;     ///< mm^3
-  double levelSetVolume = 0;  ///< mm^3
-  double dice = 0;            ///< of label voxels and voxels with their centre in the mesh
+  Eigen::Vector3d surfaceMaxPlace = Eigen::Vector3d::Zero();  ///< where it is that far, LPS mm
+  double volume = 0;                                          ///< of the mesh, mm^3
+  double labelVolume = 0;                                     ///< mm^3
+  double levelSetVolume = 0;                                  ///< mm^3
+  double dice = 0;  ///< of label voxels and voxels with their centre in the mesh
 };
 
 /// What the labels had and the mesh has not: 26-connected pieces of which no voxel has its centre in the
@@ -95,9 +96,9 @@ struct TissueReport {
   int layer = 0;
   std::string file;  ///< name inside the output folder; empty when nothing was written
   TissueStatus status = TissueStatus::Failed;
-  std::string message;       ///< one line: why it was lost or failed, or a warning
-  double edgeLength = 0;     ///< as taken for this tissue, mm
-  double minEdgeLength = 0;  ///< that refinement might make, mm
+  std::string message;                                  ///< one line: why it was lost or failed, or a warning
+  double edgeLength = 0;                                ///< as taken for this tissue, mm
+  double minEdgeLength = 0;                             ///< that refinement might make, mm
   std::vector<std::pair<std::string, double>> seconds;  ///< stage -> wall seconds, in order
   MeshQuality quality;
   std::vector<WorstElement> worst;  ///< up to kRankedTets of each measure, the worst first
