@@ -1,5 +1,6 @@
 #include "LevelSetSurface.h"
 #include "SampledLevelSet.h"
+#include "sinew/LevelSet/LevelSetGrid.h"
 
 #include <gtest/gtest.h>
 #include <openvdb/tools/Interpolation.h>
