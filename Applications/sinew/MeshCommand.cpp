@@ -47,8 +47,10 @@ void addOptions(CommandLine& line, MeshCommand& command) {
       line.addLength("--edge-length", meshing.edgeLength, "cube size of the lattice at the surface");
   line.addLength("--max-edge-length", meshing.maxEdgeLength,
                  "cube size deep inside; 0: eight times the edge length");
-  line.addLength("--min-edge-length", meshing.minEdgeLength,
-                 "smallest cube that refinement may make; 0: the level set's spacing");
+  line.addLength(
+      "--min-edge-length", meshing.minEdgeLength,
+      "smallest cube that refinement may make; 0: half a voxel, or a quarter of the edge length where "
+      "that is more");
   app.add_option("--size", command.sizes, "edge length of one tissue; repeatable")
       ->type_name("TISSUE=LENGTH")
       ->expected(1)
@@ -77,7 +79,7 @@ void addOptions(CommandLine& line, MeshCommand& command) {
       ->check(CLI::IsMember({"optimization"}))
       ->capture_default_str();
   app.add_flag("--preserve-volume", meshing.preserveVolume,
-               "move the target surface until the mesh has the volume of the level set within 0.1 %");
+               "keep the volume of the level set within 0.1 % instead of 0.5 %");
   app.add_flag("--with-quality", meshing.withQuality,
                "write the arrays aspect_ratio, min_dihedral_deg, max_dihedral_deg and phi to the meshes");
   app.footer(

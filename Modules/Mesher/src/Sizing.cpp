@@ -18,6 +18,7 @@ constexpr double kCubeRadius = 0.867;     // sqrt(3)/2: half the diagonal of a c
 constexpr double kSurfaceLayer = 1.0;     // edge lengths on either side of the surface that are uniform
 constexpr double kLipschitzSlack = 1.05;  // a sampled distance may grow a little faster than the distance
 constexpr double kThinDepth = 0.6;        // of one cube size: phi one cube below the surface is no deeper
+constexpr int kDepthSamples = 4;          // on the way through a part that may be thin
 constexpr double kWholesale = 0.15;       // of the surface asks for finer tets: then all of it gets them
 constexpr int kMostFiner = 8;             // levels below the surface's
 constexpr int kMargin = 3;  // cubes of level 0 around the bounds: two that overhang, one that stays whole
@@ -150,17 +151,31 @@ class Refiner {
     if (norm < 1e-6) return options_.thickness > 0;  // on a medial sheet this close to the surface
     const Eigen::Vector3d normal = gradient / norm;
     const Eigen::Vector3d foot = centre - phi * normal;
-    if (options_.thickness > 0) {
-      const double depth = (options_.thickness - kThinDepth) * cube;
-      if (phi_.value(foot - depth * normal) > -kThinDepth * cube) return true;
-    }
-    if (options_.curvature <= 0 && options_.tolerance <= 0) return false;
     // Smaller cubes than the samples would follow nothing but the corners of the interpolant.
-    if (0.5 * cube < phi_.resolution() * (1 - 1e-9)) return false;
+    const bool belowResolution = 0.5 * cube < phi_.resolution() * (1 - 1e-9);
+    if (options_.thickness > 0 && (belowResolution ? ends(cube, foot, normal) : thin(cube, foot, normal)))
+      return true;
+    if (belowResolution || (options_.curvature <= 0 && options_.tolerance <= 0)) return false;
     if (options_.curvature > 0 &&
         cube * principalCurvatures(phi_, foot, phi_.resolution()).magnitude() > options_.curvature)
       return true;
     return options_.tolerance > 0 && sag(cube, foot, normal) > options_.tolerance;
+  }
+
+  /// Whether the shape is not as deep below a point of its surface as where it is `thickness` cubes thick.
+  bool thin(double cube, const Eigen::Vector3d& foot, const Eigen::Vector3d& normal) const {
+    const double depth = (options_.thickness - kThinDepth) * cube;
+    return phi_.value(foot - depth * normal) > -kThinDepth * cube;
+  }
+
+  /// Whether the shape ends within `thickness` cubes below a point of its surface: a ridge, which is thin as
+  /// well, does not.
+  bool ends(double cube, const Eigen::Vector3d& foot, const Eigen::Vector3d& normal) const {
+    for (int k = 1; k <= kDepthSamples; ++k) {
+      const double depth = options_.thickness * cube * k / kDepthSamples;
+      if (phi_.value(foot - depth * normal) > 0) return true;
+    }
+    return false;
   }
 
   /// How far an edge of length h leaves the surface, h^2 k / 8 for the larger principal curvature k: half the

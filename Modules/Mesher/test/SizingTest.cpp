@@ -238,12 +238,24 @@ TEST(Sizing, OnlyThicknessGoesBelowTheResolution) {
   EXPECT_EQ(levelsAtTheSurface(shell, thin), Levels(2, 2));
 }
 
+TEST(Sizing, BelowTheResolutionRidgesAreNoThinParts) {
+  const SizingOptions options{
+      .edgeLength = 1, .maxEdgeLength = 4, .minEdgeLength = 0.25, .curvature = 0, .thickness = 1.6};
+  using Levels = std::pair<int, int>;
+  const AnalyticOptions sampled{.resolution = 0.5};
+  const test::AnalyticBox block(Vector3d::Constant(-1.7), Vector3d::Constant(1.7), sampled);
+  EXPECT_EQ(levelsAtTheSurface(block, options), Levels(1, 1)) << "its edges and corners reach 0.5 mm";
+  const test::AnalyticBox plate(Vector3d(-3, -3, -0.35), Vector3d(3, 3, 0.35), sampled);
+  EXPECT_EQ(levelsAtTheSurface(plate, options).second, 2);
+}
+
 TEST(Sizing, ASurfaceThatAsksInManyPlacesIsRefinedAsAWhole) {
   // Edges and corners take up most of a small box, little of a large one.
   const SizingOptions options{
       .edgeLength = 1, .maxEdgeLength = 4, .minEdgeLength = 0.5, .curvature = 0, .thickness = 1.6};
-  const test::AnalyticBox small(Vector3d::Constant(-1.7), Vector3d::Constant(1.7)),
-      large(Vector3d::Constant(-16.2), Vector3d::Constant(16.2));
+  const AnalyticOptions sampled{.resolution = 0.5};
+  const test::AnalyticBox small(Vector3d::Constant(-1.7), Vector3d::Constant(1.7), sampled),
+      large(Vector3d::Constant(-16.2), Vector3d::Constant(16.2), sampled);
   using Levels = std::pair<int, int>;
   EXPECT_EQ(levelsAtTheSurface(small, options), Levels(1, 1));
   EXPECT_EQ(levelsAtTheSurface(large, options), Levels(0, 1));

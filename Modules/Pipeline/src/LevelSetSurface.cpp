@@ -86,6 +86,22 @@ const float* LevelSetSurface::brick(const Eigen::Vector3i& position) const {
   return values_.data() + table_[entry(position)] * kBrickSize;
 }
 
+std::vector<Eigen::Vector3i> LevelSetSurface::bandBricks() const {
+  std::vector<Eigen::Vector3i> bricks;
+  for (int x = 0; x < count_.x(); ++x)
+    for (int y = 0; y < count_.y(); ++y)
+      for (int z = 0; z < count_.z(); ++z)
+        if (table_[entry({x, y, z})] > kOutside)
+          bricks.push_back(origin_ + kCells * Eigen::Vector3i(x, y, z));
+  return bricks;
+}
+
+float LevelSetSurface::atNode(const Eigen::Vector3i& index) const {
+  const Eigen::Vector3i node = index - origin_, place = node / kCells, in = node - kCells * place;
+  if ((node.array() < 0).any() || (place.array() >= count_.array()).any()) return static_cast<float>(band_);
+  return brick(place)[in.x() * kStrideX + in.y() * kStrideY + in.z()];
+}
+
 LevelSetSurface::Cell LevelSetSurface::cellAt(const Eigen::Vector3d& x) const {
   const Eigen::Vector3d position = x * inverseVoxelSize_ - origin_.cast<double>();
   if (!((position.array() >= 0).all() && (position.array() < extent_.array()).all()))

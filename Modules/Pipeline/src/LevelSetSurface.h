@@ -26,11 +26,20 @@ class LevelSetSurface final : public SignedDistance {
   double resolution() const override { return voxelSize_; }
   double band() const override { return band_; }
 
+  static constexpr int kLog2Cells = 3;
+  static constexpr int kCells = 1 << kLog2Cells;  ///< cells of a brick along an axis, as in a leaf of OpenVDB
+
+  /// Indices of the bricks' nodes lie in [nodesLower, nodesUpper); beyond, phi = band.
+  const Eigen::Vector3i& nodesLower() const { return origin_; }
+  Eigen::Vector3i nodesUpper() const { return origin_ + kCells * count_; }
+  /// First node of every brick in the band; the surface lies in them.
+  std::vector<Eigen::Vector3i> bandBricks() const;
+  /// phi at the grid's node voxelSize * index, without rounding, mm.
+  float atNode(const Eigen::Vector3i& index) const;
+
  private:
   friend class LevelSetTopologyCounter;
 
-  static constexpr int kLog2Cells = 3;
-  static constexpr int kCells = 1 << kLog2Cells;  ///< cells of a brick along an axis, as in a leaf of OpenVDB
   static constexpr int kNodes = kCells + 1;
   static constexpr int kStrideX = kNodes * kNodes;
   static constexpr int kStrideY = kNodes;

@@ -11,45 +11,51 @@ namespace {
 /// Largest value and root mean square of phi at a growing set of points.
 class Deviation {
  public:
-  explicit Deviation(const SignedDistance& surface) : surface_(surface) {}
+  Deviation(const SignedDistance& surface, const Eigen::Isometry3d& frame)
+      : surface_(surface), toLocal_(frame.inverse()) {}
+  /// @param x  LPS mm
   void add(const Eigen::Vector3d& x) {
-    const double phi = std::abs(surface_.value(x));
+    const double phi = std::abs(surface_.value(toLocal_ * x));
+    if (phi > max_) place_ = x;
     max_ = std::max(max_, phi);
     squares_ += phi * phi;
     ++points_;
   }
   double max() const { return max_; }
+  const Eigen::Vector3d& place() const { return place_; }  ///< of the largest value
   double rms() const { return points_ > 0 ? std::sqrt(squares_ / static_cast<double>(points_)) : 0; }
 
  private:
   const SignedDistance& surface_;
+  Eigen::Isometry3d toLocal_;
+  Eigen::Vector3d place_ = Eigen::Vector3d::Zero();
   double max_ = 0, squares_ = 0;
   std::int64_t points_ = 0;
 };
 
 void measureSurface(const TetMesh& mesh, const std::vector<Triangle>& triangles,
                     const SignedDistance& surface, const Eigen::Isometry3d& frame, Fidelity& fidelity) {
-  const Eigen::Isometry3d toLocal = frame.inverse();
   std::vector<bool> onBoundary(mesh.nodes.size());
-  Deviation deviation(surface);
+  Deviation deviation(surface, frame);
   for (const Triangle& triangle : triangles)
     for (const std::int32_t node : triangle) {
-      if (!onBoundary[node]) deviation.add(toLocal * mesh.nodes[node]);
+      if (!onBoundary[node]) deviation.add(mesh.nodes[node]);
       onBoundary[node] = true;
     }
   fidelity.maxBoundaryPhi = deviation.max();
   for (const Triangle& triangle : triangles) {
     const Eigen::Vector3d corners[]{mesh.nodes[triangle[0]], mesh.nodes[triangle[1]],
                                     mesh.nodes[triangle[2]]};
-    deviation.add(toLocal * ((corners[0] + corners[1] + corners[2]) / 3));
+    deviation.add((corners[0] + corners[1] + corners[2]) / 3);
     for (int e = 0; e < 3; ++e) {
       const int next = (e + 1) % 3;
       // Each edge belongs to two triangles, in opposite directions.
-      if (triangle[e] < triangle[next]) deviation.add(toLocal * ((corners[e] + corners[next]) / 2));
+      if (triangle[e] < triangle[next]) deviation.add((corners[e] + corners[next]) / 2);
     }
   }
   fidelity.surfaceRms = deviation.rms();
   fidelity.surfaceMax = deviation.max();
+  fidelity.surfaceMaxPlace = deviation.place();
 }
 
 }  // namespace

@@ -5,10 +5,12 @@
 #include "MeasureFidelity.h"
 #include "OffsetSurface.h"
 #include "QualityArrays.h"
+#include "TopologyDifferences.h"
 #include "UnderResolution.h"
 #include "VolumeOffset.h"
 #include "WorstElements.h"
 #include "sinew/MeshIO/VtuFile.h"
+#include "sinew/Mesher/MoveBoundary.h"
 #include "sinew/Pipeline/Memory.h"
 #include "sinew/Pipeline/OutputFile.h"
 #include "sinew/Segmentation/LabelComponents.h"
@@ -178,7 +180,7 @@ class TissueRun {
     return best;
   }
 
-  /// Moves the target surface as far as the volume asks; the best mesh. Leaves the level set behind.
+  /// Moves the boundary as far as the volume asks; the best mesh. Leaves the level set behind.
   TetMesh keepVolume(Attempt attempt) {
     volumes_ = attempt.volumes;
     frame_ = attempt.frame;
@@ -186,25 +188,52 @@ class TissueRun {
     plan_ = attempt.plan;
     report_.edgeLength = plan_.sizes.edge;
     report_.minEdgeLength = plan_.sizes.smallest;
-    TetMesh best = std::move(attempt.mesh);
-    if (best.tets.empty()) return best;
+    TetMesh mesh = std::move(attempt.mesh);
+    if (mesh.tets.empty()) return mesh;
 
+    const double area = boundaryArea(mesh);
+    const OffsetTrial plain{0, meshVolume(mesh)};
+    KeptVolume best = tryOffsets(plain, area, [&](double offset) {
+      TetMesh moved = mesh;
+      moved.nodes = moveBoundary(mesh, *surface_, offset);
+      return moved;
+    });
     const VolumeRule& rule = volumeRule(options_.preserveVolume);
-    GenerateTetMeshOptions options = mesherOptions(plan_);
-    options.progress = [this](std::string_view, double) { advance("keeping the volume", kAfterMesh); };
-    const double wanted = volumes_.levelSetVolume, area = boundaryArea(best);
-    std::vector<OffsetTrial> trials{{0, meshVolume(best)}};
+    const double wanted = volumes_.levelSetVolume;
+    if (rule.remesh && !goodVolume(best.trial, wanted, rule)) {
+      GenerateTetMeshOptions options = mesherOptions(plan_);
+      options.progress = [this](std::string_view, double) { advance("keeping the volume", kAfterMesh); };
+      KeptVolume remeshed = tryOffsets(
+          plain, area, [&](double offset) { return generateOn(OffsetSurface(*surface_, offset), options); });
+      if (bestTrial({best.trial, remeshed.trial}, wanted) == 1) best = std::move(remeshed);
+    }
+    surfaceOffset_ = best.trial.offset;
+    return best.trial.offset != 0 ? std::move(best.mesh) : std::move(mesh);
+  }
+
+  /// The best of some meshes, and its volume; no mesh at offset 0.
+  struct KeptVolume {
+    OffsetTrial trial;
+    TetMesh mesh;
+  };
+
+  /// @param meshAt  makes the mesh whose boundary lies at an offset, mm
+  KeptVolume tryOffsets(const OffsetTrial& plain, double area,
+                        const std::function<TetMesh(double)>& meshAt) const {
+    const VolumeRule& rule = volumeRule(options_.preserveVolume);
+    const double wanted = volumes_.levelSetVolume;
+    std::vector<OffsetTrial> trials{plain};
+    KeptVolume best{plain, {}};
     while (const auto offset = nextOffset(trials, wanted, area, plan_.sizes.edge, rule)) {
       TetMesh mesh;
       try {
-        mesh = generateOn(OffsetSurface(*surface_, *offset), options);
+        mesh = meshAt(*offset);
       } catch (const std::runtime_error&) {
         break;  // no mesh on the moved surface: the best so far stands
       }
       trials.push_back({*offset, meshVolume(mesh)});
-      if (bestTrial(trials, wanted) + 1 == trials.size()) best = std::move(mesh);
+      if (bestTrial(trials, wanted) + 1 == trials.size()) best = {trials.back(), std::move(mesh)};
     }
-    surfaceOffset_ = trials[bestTrial(trials, wanted)].offset;
     return best;
   }
 
@@ -238,6 +267,7 @@ class TissueRun {
     const LevelSetTopology topology = levelSetTopology(*surface_);
     report_.levelSetComponents = topology.components;
     report_.levelSetEuler = topology.eulerCharacteristic;
+    compareTopology(mesh);
     const FidelityReport fidelity =
         measureFidelity(mesh, boundary.triangles, OffsetSurface(*surface_, surfaceOffset_), frame_, volumes_,
                         segmentation_, tissue_);
@@ -246,6 +276,18 @@ class TissueRun {
     report_.lost = fidelity.lost;
     if (!options_.withQuality) surface_.reset();
     lap("measuring");
+  }
+
+  void compareTopology(const TetMesh& mesh) {
+    report_.topologyDifferences = topologyDifferences(mesh, *surface_, frame_);
+    report_.topologyDifferenceCount = std::ssize(report_.topologyDifferences);
+    if (report_.topologyDifferences.size() > kListedTopologyDifferences)
+      report_.topologyDifferences.resize(kListedTopologyDifferences);
+    const double smallest = std::min(plan_.sizes.smallest, plan_.sizes.edge);
+    for (TopologyDifference& difference : report_.topologyDifferences)
+      difference.reason = difference.width < smallest
+                              ? "narrower than the smallest cubes allowed, " + number(smallest) + " mm"
+                              : "the cubes there are too large";
   }
 
   void lose() {

@@ -1,5 +1,6 @@
 #include "sinew/Pipeline/Report.h"
 
+#include "TopologyDifferences.h"
 #include "sinew/Pipeline/Memory.h"
 
 #include <nlohmann/json.hpp>
@@ -13,6 +14,8 @@ namespace sinew {
 namespace {
 
 using Json = nlohmann::ordered_json;  // keeps the order in which fields are written here
+
+Json toArray(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 Json toJsonObject(const MeshQuality& quality) {
   return {{"max_aspect_ratio", quality.maxAspectRatio},  {"mean_aspect_ratio", quality.meanAspectRatio},
@@ -40,6 +43,7 @@ Json toJsonObject(const Fidelity& fidelity) {
           {"max_boundary_phi_mm", fidelity.maxBoundaryPhi},
           {"surface_rms_mm", fidelity.surfaceRms},
           {"surface_max_mm", fidelity.surfaceMax},
+          {"surface_max_place_mm", toArray(fidelity.surfaceMaxPlace)},
           {"volume_mm3", fidelity.volume},
           {"label_volume_mm3", fidelity.labelVolume},
           {"level_set_volume_mm3", fidelity.levelSetVolume},
@@ -50,8 +54,6 @@ Json toJsonObject(const LostPieces& lost) {
   return {{"components", lost.components}, {"volume_mm3", lost.volume}};
 }
 
-Json toArray(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
 Json toJsonArray(const std::vector<WorstElement>& worst) {
   Json list = Json::array();
   for (const WorstElement& element : worst)
@@ -59,6 +61,18 @@ Json toJsonArray(const std::vector<WorstElement>& worst) {
                     {"element", element.element},
                     {"value", element.value},
                     {"place_mm", toArray(element.place)}});
+  return list;
+}
+
+Json toJsonArray(const std::vector<TopologyDifference>& differences) {
+  Json list = Json::array();
+  for (const TopologyDifference& difference : differences)
+    list.push_back({{"change", toString(difference.change)},
+                    {"place_mm", toArray(difference.place)},
+                    {"width_mm", difference.width},
+                    {"euler_characteristic", difference.euler},
+                    {"volume_mm3", difference.volume},
+                    {"reason", difference.reason}});
   return list;
 }
 
@@ -96,6 +110,8 @@ Json toJsonObject(const TissueReport& report) {
           {"worst", toJsonArray(report.worst)},
           {"conditions", toJsonObject(report.conditions)},
           {"topology", topology},
+          {"topology_difference_count", report.topologyDifferenceCount},
+          {"topology_differences", toJsonArray(report.topologyDifferences)},
           {"fidelity", toJsonObject(report.fidelity)},
           {"lost", toJsonObject(report.lost)}};
 }

@@ -8,7 +8,7 @@ namespace sinew {
 struct TissueSizes {
   double edge = 0;      ///< cube size at the surface, mm
   double largest = 0;   ///< deep inside, mm
-  double smallest = 0;  ///< that refinement may make, mm; 0: the level set's spacing
+  double smallest = 0;  ///< that refinement may make, mm
 };
 
 /// What meshing one tissue will take, guessed from its voxels alone.

@@ -8,6 +8,8 @@
 namespace sinew {
 namespace {
 
+constexpr double kTwoLevelsDown = 0.25;
+
 /// How large a tissue is, mm.
 struct Extent {
   double largest;  ///< longest side of its box
@@ -43,6 +45,13 @@ LevelSetFromLabelsOptions levelSetOptions(const ImageGeometry& geometry, double 
   return options;
 }
 
+/// Half voxels hold what is two voxels thick; a speck is refined as far as it is sampled.
+double smallestCube(const TissuePlan& plan, double voxel, double wanted) {
+  if (wanted <= 0)
+    return std::min(plan.levelSet.gridSpacing, std::max(0.5 * voxel, kTwoLevelsDown * plan.sizes.edge));
+  return plan.sizeReduced ? std::min(wanted, plan.sizes.edge / 2) : wanted;
+}
+
 }  // namespace
 
 TissuePlan planTissue(const Segmentation& segmentation, const Tissue& tissue, double edge,
@@ -56,18 +65,15 @@ TissuePlan planTissue(const Segmentation& segmentation, const Tissue& tissue, do
   plan.sizes.edge = fittingEdge(extent, voxel, edge);
   plan.sizes.largest = std::max(plan.sizes.edge, std::min(largest, extent.largest));
   plan.sizeReduced = plan.sizes.edge < edge;
-  plan.sizes.smallest = options.minEdgeLength.millimetres(voxel);
-  if (plan.sizeReduced) plan.sizes.smallest = std::min(plan.sizes.smallest, plan.sizes.edge / 2);
   plan.levelSet = levelSetOptions(segmentation.geometry, extent.mean, plan.sizes.edge, options);
+  plan.sizes.smallest = smallestCube(plan, voxel, options.minEdgeLength.millimetres(voxel));
   return plan;
 }
 
 TissuePlan planTrial(const Segmentation& segmentation, const Tissue& tissue, double edge,
                      const MeshTissuesOptions& options) {
-  constexpr double kTwoLevelsDown = 0.25;
   TissuePlan plan = planTissue(segmentation, tissue, edge, options);
-  const double smallest = plan.sizes.smallest > 0 ? plan.sizes.smallest : plan.levelSet.gridSpacing;
-  plan.sizes.smallest = std::max(smallest, kTwoLevelsDown * plan.sizes.edge);
+  plan.sizes.smallest = std::max(plan.sizes.smallest, kTwoLevelsDown * plan.sizes.edge);
   return plan;
 }
 

@@ -1,5 +1,7 @@
 #include "UnderResolution.h"
 
+#include "TopologyDifferences.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -32,6 +34,17 @@ std::string quoted(const std::string& text) {
   return result + "'";
 }
 
+std::string widest(const TopologyDifference& difference) {
+  std::string place;
+  for (const double x : difference.place) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1f", x);
+    place += (place.empty() ? "" : ", ") + std::string(text);
+  }
+  return std::string("at its widest a ") + toString(difference.change) + ", " + number(difference.width) +
+         " mm across, at (" + place + ") mm, " + difference.reason;
+}
+
 }  // namespace
 
 std::string sizeOption(const std::string& tissue, double edge) {
@@ -55,6 +68,7 @@ std::string underResolution(const TissueReport& report) {
   if (report.topology.eulerCharacteristic != report.levelSetEuler)
     add("Euler characteristic " + std::to_string(report.topology.eulerCharacteristic) + " instead of " +
         std::to_string(report.levelSetEuler));
+  if (!signs.empty() && !report.topologyDifferences.empty()) add(widest(report.topologyDifferences.front()));
   const double error = report.fidelity.volume / report.fidelity.levelSetVolume - 1;
   if (std::abs(error) > kVolumeError)
     add("volume " + number(100 * std::abs(error)) + " % too " + (error < 0 ? "small" : "large"));

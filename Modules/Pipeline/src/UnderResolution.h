@@ -12,7 +12,8 @@ namespace sinew {
 std::string sizeOption(const std::string& tissue, double edge);
 
 /// What tells that the lattice was too coarse for a tissue, and the option to change: pieces lost, another
-/// topology than the level set's, or a volume more than 5 % off the level set's. Empty when nothing does.
+/// topology than the level set's and the widest place where that is so, or a volume more than 5 % off the
+/// level set's. Empty when nothing does.
 /// @param report  of a mesh, measured
 std::string underResolution(const TissueReport& report);
 

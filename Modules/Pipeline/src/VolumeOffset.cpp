@@ -17,6 +17,10 @@ double growth(const std::vector<OffsetTrial>& trials, double area) {
 
 }  // namespace
 
+bool goodVolume(const OffsetTrial& trial, double wantedVolume, const VolumeRule& rule) {
+  return std::abs(trial.volume - wantedVolume) <= rule.tolerance * wantedVolume;
+}
+
 std::size_t bestTrial(const std::vector<OffsetTrial>& trials, double wantedVolume) {
   const auto best = std::ranges::min_element(
       trials, {}, [&](const OffsetTrial& trial) { return std::abs(trial.volume - wantedVolume); });
@@ -25,12 +29,11 @@ std::size_t bestTrial(const std::vector<OffsetTrial>& trials, double wantedVolum
 
 std::optional<double> nextOffset(const std::vector<OffsetTrial>& trials, double wantedVolume, double area,
                                  double edge, const VolumeRule& rule) {
-  const OffsetTrial& best = trials[bestTrial(trials, wantedVolume)];
-  if (std::abs(best.volume - wantedVolume) <= rule.tolerance * wantedVolume) return std::nullopt;
-  if (static_cast<int>(trials.size()) >= rule.meshings) return std::nullopt;
+  if (goodVolume(trials[bestTrial(trials, wantedVolume)], wantedVolume, rule)) return std::nullopt;
+  if (static_cast<int>(trials.size()) >= rule.trials) return std::nullopt;
   const double largest = rule.largestEdges * edge;
   const double offset = trials.back().offset + (wantedVolume - trials.back().volume) / growth(trials, area);
-  const double allowed = std::clamp(offset, rule.inwards ? -largest : 0, largest);
+  const double allowed = std::clamp(offset, -largest, largest);
   const bool tried =
       std::ranges::any_of(trials, [&](const OffsetTrial& trial) { return trial.offset == allowed; });
   return tried ? std::nullopt : std::optional(allowed);

@@ -14,14 +14,16 @@ struct OffsetTrial {
 /// How far one goes for the volume.
 struct VolumeRule {
   double tolerance;     ///< of the volume: what is less wrong is good
-  int meshings;         ///< at most
+  int trials;           ///< at most, each for moved boundaries and for new meshes
   double largestEdges;  ///< largest offset, edge lengths
-  bool inwards;         ///< also where there is too much
+  bool remesh;          ///< mesh the moved surface anew where moving the boundary does not do
 };
-/// Flat triangles cut off what is round: by default a noticeable part of the volume is given back.
-inline constexpr VolumeRule kNoticeableVolume{0.01, 2, 0.05, false};
+inline constexpr VolumeRule kNoticeableVolume{0.005, 4, 0.05, false};
 inline constexpr VolumeRule kExactVolume{0.001, 4, 0.1, true};
 constexpr const VolumeRule& volumeRule(bool exact) { return exact ? kExactVolume : kNoticeableVolume; }
+
+/// Whether a trial is as near to the wanted volume as the rule asks.
+bool goodVolume(const OffsetTrial& trial, double wantedVolume, const VolumeRule& rule);
 
 /// The trial whose volume is nearest to the wanted one; the first of equals.
 std::size_t bestTrial(const std::vector<OffsetTrial>& trials, double wantedVolume);

@@ -97,15 +97,22 @@ void VoxelMask::addRun(int first, int last, int y, int z) {
   }
 }
 
-VoxelMask voxelsInMesh(const TetMesh& mesh, const Eigen::Affine3d& toIndex) {
+void VoxelMask::flip(const Eigen::Vector3i& index) {
+  const std::size_t bit = index.x() - box_.lower.x();
+  words_[rowStart(index.y(), index.z()) + bit / 64] ^= std::uint64_t{1} << (bit % 64);
+}
+
+VoxelMask voxelsInMesh(const TetMesh& mesh, const Eigen::Affine3d& toIndex, const VoxelBox& atLeast) {
   std::vector<Eigen::Vector3d> nodes(mesh.nodes.size());
   Eigen::AlignedBox3d box;
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     nodes[n] = toIndex * mesh.nodes[n];
     box.extend(nodes[n]);
   }
-  if (mesh.tets.empty()) return {};
-  VoxelMask mask({(box.min().array() - 1).floor().cast<int>(), (box.max().array() + 2).floor().cast<int>()});
+  if (mesh.tets.empty()) return VoxelMask(atLeast);
+  VoxelBox voxels{(box.min().array() - 1).floor().cast<int>(), (box.max().array() + 2).floor().cast<int>()};
+  if (!atLeast.empty()) voxels = {voxels.lower.cwiseMin(atLeast.lower), voxels.upper.cwiseMax(atLeast.upper)};
+  VoxelMask mask(voxels);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh.tets.size(), 1024), [&](const auto& range) {
     for (std::size_t t = range.begin(); t < range.end(); ++t) {
       const Tet& tet = mesh.tets[t];

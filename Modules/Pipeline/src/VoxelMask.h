@@ -20,6 +20,8 @@ class VoxelMask {
   /// Adds voxels first..last (inclusive, inside the box) of the row through (., y, z). Safe from several
   /// threads.
   void addRun(int first, int last, int y, int z);
+  /// Adds or removes a voxel of the box. For one thread.
+  void flip(const Eigen::Vector3i& index);
 
  private:
   std::size_t rowStart(int y, int z) const;
@@ -32,7 +34,8 @@ class VoxelMask {
 /// The voxels whose centre lies in a tet of the mesh; centres on shared faces count once, and on the boundary
 /// count.
 /// @param toIndex  from the mesh's coordinates to continuous voxel indices
+/// @param atLeast  a box that the mask's box shall hold
 /// Cost: O(tets + voxel rows crossed by tets); the same for any number of threads.
-VoxelMask voxelsInMesh(const TetMesh& mesh, const Eigen::Affine3d& toIndex);
+VoxelMask voxelsInMesh(const TetMesh& mesh, const Eigen::Affine3d& toIndex, const VoxelBox& atLeast = {});
 
 }  // namespace sinew

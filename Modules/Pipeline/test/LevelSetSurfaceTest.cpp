@@ -1,41 +1,17 @@
 #include "LevelSetSurface.h"
+#include "SampledLevelSet.h"
 #include "sinew/LevelSet/LevelSetGrid.h"
 
 #include <gtest/gtest.h>
 #include <openvdb/tools/Interpolation.h>
 
 #include <cmath>
-#include <functional>
 #include <random>
 
 namespace sinew {
 namespace {
 
-/// Samples a distance (in voxels of grid index) on a box of indices, with the narrow band and tiles of
-/// OpenVDB.
-LevelSet sampled(const std::function<double(const Eigen::Vector3d&)>& phi, const Eigen::Vector3i& lower,
-                 const Eigen::Vector3i& upper, double voxelSize = 1) {
-  LevelSet levelSet;
-  levelSet.voxelSize = voxelSize;
-  levelSet.band = 3 * voxelSize;
-  levelSet.lower = lower;
-  levelSet.upper = upper;
-  const auto band = static_cast<float>(levelSet.band);
-  auto grid = openvdb::FloatGrid::create(band);
-  auto accessor = grid->getAccessor();
-  for (int x = lower.x(); x <= upper.x(); ++x)
-    for (int y = lower.y(); y <= upper.y(); ++y)
-      for (int z = lower.z(); z <= upper.z(); ++z) {
-        const auto value = static_cast<float>(voxelSize * phi({double(x), double(y), double(z)}));
-        if (std::abs(value) < band)
-          accessor.setValue({x, y, z}, value);
-        else
-          accessor.setValueOff({x, y, z}, value < 0 ? -band : band);
-      }
-  grid->pruneGrid();
-  levelSet.grid = std::make_shared<LevelSetGrid>(LevelSetGrid{grid});
-  return levelSet;
-}
+using test::sampled;
 
 double sphere(const Eigen::Vector3d& x, const Eigen::Vector3d& center, double radius) {
   return (x - center).norm() - radius;

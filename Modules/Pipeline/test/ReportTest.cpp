@@ -38,6 +38,8 @@ MeshingReport exampleRun() {
   tissue.levelSetEuler = 2;
   tissue.fidelity.dice = 0.75;
   tissue.lost = {2, 3.5};
+  tissue.topologyDifferenceCount = 21;
+  tissue.topologyDifferences = {{TopologyChange::HoleClosed, {1, 2, 3}, 0.5, -2, 0.25, "too coarse"}};
   tissue.worst = {{"aspect_ratio", 7, 2.5, {1, 2, 3}}};
   run.tissues = {tissue, {}};
   return run;
@@ -52,7 +54,8 @@ TEST(Report, HasTheFieldsThatReadersExpect) {
   EXPECT_EQ(keys(tissue),
             (std::vector<std::string>{"conditions", "edge_length_mm", "fidelity", "file", "label", "layer",
                                       "lost", "message", "min_edge_length_mm", "name", "nodes", "quality",
-                                      "seconds", "status", "tets", "topology", "worst"}));
+                                      "seconds", "status", "tets", "topology", "topology_difference_count",
+                                      "topology_differences", "worst"}));
   EXPECT_EQ(keys(tissue["quality"]),
             (std::vector<std::string>{"inverted", "max_aspect_ratio", "max_dihedral_deg", "max_over_min_edge",
                                       "mean_aspect_ratio", "min_dihedral_deg"}));
@@ -60,10 +63,10 @@ TEST(Report, HasTheFieldsThatReadersExpect) {
             (std::vector<std::string>{"faces_of_many_tets", "interior_edges_between_boundary_nodes",
                                       "interior_faces_with_three_boundary_nodes", "nonmanifold_edges",
                                       "nonmanifold_nodes", "tets_with_four_boundary_nodes"}));
-  EXPECT_EQ(
-      keys(tissue["fidelity"]),
-      (std::vector<std::string>{"dice", "label_volume_mm3", "level_set_volume_mm3", "max_boundary_phi_mm",
-                                "surface_max_mm", "surface_offset_mm", "surface_rms_mm", "volume_mm3"}));
+  EXPECT_EQ(keys(tissue["fidelity"]),
+            (std::vector<std::string>{"dice", "label_volume_mm3", "level_set_volume_mm3",
+                                      "max_boundary_phi_mm", "surface_max_mm", "surface_max_place_mm",
+                                      "surface_offset_mm", "surface_rms_mm", "volume_mm3"}));
   EXPECT_EQ(keys(tissue["lost"]), (std::vector<std::string>{"components", "volume_mm3"}));
 }
 
@@ -86,6 +89,10 @@ TEST(Report, CarriesTheValues) {
   EXPECT_EQ(tissue["seconds"]["lattice"], 0.5);
   EXPECT_EQ(tissue["tets"], 12);
   EXPECT_EQ(tissue["quality"]["max_aspect_ratio"], 2.5);
+  EXPECT_EQ(tissue["topology_difference_count"], 21);
+  EXPECT_EQ(tissue["topology_differences"],
+            Json::parse(R"([{"change": "hole closed", "place_mm": [1.0, 2.0, 3.0], "width_mm": 0.5,
+                             "euler_characteristic": -2, "volume_mm3": 0.25, "reason": "too coarse"}])"));
   EXPECT_EQ(tissue["worst"], Json::parse(R"([{"measure": "aspect_ratio", "element": 7, "value": 2.5,
                                               "place_mm": [1.0, 2.0, 3.0]}])"));
   EXPECT_EQ(tissue["conditions"]["nonmanifold_edges"], 6);

@@ -42,7 +42,8 @@ TEST(TissuePlan, NoCubeIsLargerThanTheTissue) {
 }
 
 TEST(TissuePlan, RefinementStopsAtTheSmallestCube) {
-  EXPECT_EQ(planOf(2).sizes.smallest, 0) << "the level set's spacing";
+  EXPECT_EQ(planOf(2).sizes.smallest, 0.5) << "half a voxel";
+  EXPECT_EQ(planOf(3).sizes.smallest, 0.75) << "a quarter of the edge length";
   MeshTissuesOptions options;
   options.minEdgeLength = 1.5;
   EXPECT_EQ(planOf(2, options).sizes.smallest, 1.5);
@@ -50,7 +51,7 @@ TEST(TissuePlan, RefinementStopsAtTheSmallestCube) {
   const Segmentation segmentation = plate();
   EXPECT_EQ(planTrial(segmentation, segmentation.tissues[0], 12, options).sizes.smallest, 3);
   EXPECT_EQ(planTrial(segmentation, segmentation.tissues[0], 2, options).sizes.smallest, 1.5);
-  EXPECT_EQ(planTrial(segmentation, segmentation.tissues[0], 2, {}).sizes.smallest, 1) << "a voxel";
+  EXPECT_EQ(planTrial(segmentation, segmentation.tissues[0], 2, {}).sizes.smallest, 0.5);
 }
 
 TEST(TissuePlan, ASpeckMayBeRefinedOnce) {
@@ -65,6 +66,8 @@ TEST(TissuePlan, ASpeckMayBeRefinedOnce) {
   EXPECT_TRUE(plan.sizeReduced);
   EXPECT_DOUBLE_EQ(plan.sizes.edge, 1. / 3);
   EXPECT_DOUBLE_EQ(plan.sizes.smallest, 1. / 6);
+  const TissuePlan usual = planTissue(segmentation, segmentation.tissues[0], 2, {});
+  EXPECT_DOUBLE_EQ(usual.sizes.smallest, usual.levelSet.gridSpacing);
 }
 
 TEST(TissuePlan, TheBandReachesWhereTheMesherLooks) {

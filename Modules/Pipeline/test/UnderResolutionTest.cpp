@@ -34,6 +34,19 @@ TEST(UnderResolution, EverySignIsToldWithHalfTheEdgeLength) {
   EXPECT_EQ(underResolution(report), "under-resolved: 2 components instead of 1; try --size 'ball=0.45mm'");
 }
 
+TEST(UnderResolution, TheWidestDifferenceIsTold) {
+  TissueReport report = soundReport();
+  report.topologyDifferences = {{.change = TopologyChange::BridgeLost,
+                                 .place = {1, -2.04, 30.06},
+                                 .width = 0.5,
+                                 .reason = "the cubes there are too large"}};
+  EXPECT_EQ(underResolution(report), "") << "the counts agree";
+  report.topology.components = 2;
+  EXPECT_EQ(underResolution(report),
+            "under-resolved: 2 components instead of 1, at its widest a bridge lost, 0.5 mm across, at (1.0, "
+            "-2.0, 30.1) mm, the cubes there are too large; try --size 'ball=0.45mm'");
+}
+
 TEST(UnderResolution, LostPiecesGetThreeCubesAlong) {
   TissueReport report = soundReport();
   report.lost = {2, 2 * 0.27};  // pieces of 0.65^3 mm^3

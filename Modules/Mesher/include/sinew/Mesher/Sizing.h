@@ -37,9 +37,10 @@ LatticePlan planLattice(const SignedDistance& phi, const SizingOptions& options)
 
 /// Refines the lattice: cubes of edgeLength or less within one edge length of the surface, finer ones where
 /// curvature, tolerance or thickness ask, the first two down to the resolution of phi (Teran et al. 2005,
-/// section 5), graded by the hierarchy elsewhere; where much of the surface asks, all of it becomes finer and
-/// plan.surfaceLevel rises. Closes the hierarchy. Cost: O(shape's surface / edgeLength^2 + bounds / band^3);
-/// parallel, the same for any number of threads.
+/// section 5), below it only where the shape ends within `thickness` cubes below its surface, graded by the
+/// hierarchy elsewhere; where much of the surface asks, all of it becomes finer and plan.surfaceLevel rises.
+/// Closes the hierarchy. Cost: O(shape's surface / edgeLength^2 + bounds / band^3); parallel, the same for
+/// any number of threads.
 /// @return the finest level with tets
 int refineToSize(RedGreenLattice& lattice, LatticePlan& plan, const SignedDistance& phi,
                  const SizingOptions& options);

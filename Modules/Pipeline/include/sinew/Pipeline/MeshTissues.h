@@ -21,7 +21,9 @@ struct MeshTissuesOptions {
   /// root of its volume.
   Length edgeLength = Length::voxels(2);
   Length maxEdgeLength = 0;  ///< cube size deep inside; 0: eight times the edge length
-  Length minEdgeLength = 0;  ///< smallest cube that refinement may make; 0: the level set's spacing
+  /// Smallest cube that refinement may make; 0: half a voxel, or a quarter of the edge length where that is
+  /// more.
+  Length minEdgeLength = 0;
   std::map<std::string, Length> sizes;  ///< tissue, by a wish as in selectTissues -> its own edge length, > 0
   /// Choose the edge length of tissues without one in `sizes` for so many tets within 10 %; 0: off.
   /// Refinement then goes two levels down at most.
@@ -29,8 +31,8 @@ struct MeshTissuesOptions {
   double curvature = 1.0;  ///< see GenerateTetMeshOptions
   Length tolerance = 0;    ///< see GenerateTetMeshOptions; 0: off
   int levels = 0;          ///< see GenerateTetMeshOptions
-  /// Move the target surface, by a tenth of an edge length at most and in at most four meshings, until the
-  /// mesh has the level set's volume within 0.1 %.
+  /// Keep the level set's volume within 0.1 % instead of 0.5 %, by moving the boundary by a tenth of an edge
+  /// length at most instead of a twentieth, and in up to three new meshings where that does not do.
   bool preserveVolume = false;
   bool withQuality = false;            ///< write arrays of quality and level set to the files
   LevelSetFromLabelsOptions levelSet;  ///< labels to distance
@@ -39,14 +41,15 @@ struct MeshTissuesOptions {
 enum class TissueStatus { Meshed, Lost, Failed };
 
 struct Fidelity {
-  double surfaceOffset = 0;   ///< the mesh lies on phi = surfaceOffset, mm: > 0 where that keeps the volume
+  double surfaceOffset = 0;   ///< the mesh lies on phi = surfaceOffset, mm: not 0 where that keeps the volume
   double maxBoundaryPhi = 0;  ///< largest distance of a boundary node from that surface, mm
   double surfaceRms = 0;      ///< distance of boundary nodes, edge midpoints and centroids from it, mm
   double surfaceMax = 0;      ///< mm
-  double volume = 0;          ///< of the mesh, mm^3
-  double labelVolume = 0;     ///< mm^3
-  double levelSetVolume = 0;  ///< mm^3
-  double dice = 0;            ///< of label voxels and voxels with their centre in the mesh
+  Eigen::Vector3d surfaceMaxPlace = Eigen::Vector3d::Zero();  ///< where it is that far, LPS mm
+  double volume = 0;                                          ///< of the mesh, mm^3
+  double labelVolume = 0;                                     ///< mm^3
+  double levelSetVolume = 0;                                  ///< mm^3
+  double dice = 0;  ///< of label voxels and voxels with their centre in the mesh
 };
 
 /// What the labels had and the mesh has not: 26-connected pieces of which no voxel has its centre in the
@@ -55,6 +58,29 @@ struct LostPieces {
   std::int64_t components = 0;
   double volume = 0;  ///< mm^3
 };
+
+/// What a mesh did to the level set's shape at a place where the two differ in topology.
+enum class TopologyChange {
+  PieceLost,     ///< a piece of the shape has nothing in the mesh
+  BridgeLost,    ///< parts that the shape joins are apart in the mesh
+  SheetPierced,  ///< the mesh has a hole through a sheet that is whole
+  VoidOpened,    ///< the mesh has a void inside of the shape
+  VoidClosed,    ///< the mesh fills a void
+  HoleClosed,    ///< the mesh fills a hole through the shape
+  GapClosed,     ///< the mesh joins parts that the shape keeps apart
+  PieceAdded,    ///< a piece of the mesh has nothing in the shape
+};
+
+/// A place where the topology of a mesh differs from its level set's: where the change is narrowest.
+struct TopologyDifference {
+  TopologyChange change = TopologyChange::PieceLost;
+  Eigen::Vector3d place;   ///< LPS mm
+  double width = 0;        ///< of what the mesh has lost or closed, twice its largest |phi|, mm
+  std::int64_t euler = 0;  ///< what mending it would add to the Euler characteristic of the mesh's boundary
+  double volume = 0;       ///< of what was lost or closed; of bridges, sheets, holes, gaps a slice, mm^3
+  std::string reason;      ///< why the mesh is not like the level set there
+};
+inline constexpr std::size_t kListedTopologyDifferences = 20;
 
 /// One of the worst tets of a mesh by one measure.
 struct WorstElement {
@@ -70,9 +96,9 @@ struct TissueReport {
   int layer = 0;
   std::string file;  ///< name inside the output folder; empty when nothing was written
   TissueStatus status = TissueStatus::Failed;
-  std::string message;       ///< one line: why it was lost or failed, or a warning
-  double edgeLength = 0;     ///< as taken for this tissue, mm
-  double minEdgeLength = 0;  ///< that refinement might make, mm; 0: the level set's spacing
+  std::string message;                                  ///< one line: why it was lost or failed, or a warning
+  double edgeLength = 0;                                ///< as taken for this tissue, mm
+  double minEdgeLength = 0;                             ///< that refinement might make, mm
   std::vector<std::pair<std::string, double>> seconds;  ///< stage -> wall seconds, in order
   MeshQuality quality;
   std::vector<WorstElement> worst;  ///< up to kRankedTets of each measure, the worst first
@@ -80,6 +106,8 @@ struct TissueReport {
   MeshTopology topology;
   std::int64_t levelSetComponents = 0;
   std::int64_t levelSetEuler = 0;
+  std::int64_t topologyDifferenceCount = 0;
+  std::vector<TopologyDifference> topologyDifferences;  ///< up to kListedTopologyDifferences, widest first
   Fidelity fidelity;
   LostPieces lost;
 };
