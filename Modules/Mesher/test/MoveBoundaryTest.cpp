@@ -1,5 +1,5 @@
 #include "GoalMeasure.h"
-#include "RandomShapes.h"
+#include "sinew/TestSupport/RandomShapes.h"
 #include "sinew/Mesher/GenerateTetMesh.h"
 #include "sinew/Mesher/MeshQuality.h"
 #include "sinew/Mesher/MoveBoundary.h"
