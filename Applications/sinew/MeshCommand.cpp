@@ -49,8 +49,8 @@ void addOptions(CommandLine& line, MeshCommand& command) {
                  "cube size deep inside; 0: eight times the edge length");
   line.addLength(
       "--min-edge-length", meshing.minEdgeLength,
-      "smallest cube that refinement may make; 0: half a voxel, or a quarter of the edge length where "
-      "that is more");
+      "smallest cube that refinement may make; 0: the level set's spacing, and where more than 1 % of the "
+      "volume would be lost half a voxel, or a quarter of the edge length where that is more");
   app.add_option("--size", command.sizes, "edge length of one tissue; repeatable")
       ->type_name("TISSUE=LENGTH")
       ->expected(1)

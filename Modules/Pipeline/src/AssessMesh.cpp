@@ -73,8 +73,9 @@ MeshAssessment assessMesh(const std::filesystem::path& file, const Segmentation&
   const double edge = meshing.edgeLength.millimetres(reference.geometry.meanSpacing());
   const LevelSet levelSet =
       levelSetFromLabels(reference, tissue, planTissue(reference, tissue, edge, meshing).levelSet, &volumes);
-  const FidelityReport fidelity = measureFidelity(mesh, boundary.triangles, LevelSetSurface(levelSet),
-                                                  levelSet.frame, volumes, reference, tissue);
+  const LevelSetSurface surface(levelSet);
+  const FidelityReport fidelity = measureFidelity(
+      mesh, boundary.triangles, {.phi = surface, .frame = levelSet.frame}, volumes, reference, tissue);
   assessment.tissue = tissue.name;
   assessment.fidelity = fidelity.fidelity;
   assessment.lost = fidelity.lost;

@@ -3,22 +3,27 @@
 #include "VoxelMask.h"
 #include "sinew/Segmentation/LabelComponents.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sinew {
 namespace {
 
-/// Largest value and root mean square of phi at a growing set of points.
+/// Largest value and root mean square of the distances of a growing set of points from the target.
 class Deviation {
  public:
-  Deviation(const SignedDistance& surface, const Eigen::Isometry3d& frame)
-      : surface_(surface), toLocal_(frame.inverse()) {}
+  explicit Deviation(const TargetSurface& target)
+      : phi_(target.phi),
+        toLocal_(target.frame.inverse()),
+        lowest_(std::min(target.offset, 0.)),
+        highest_(std::max(target.offset, 0.)) {}
   /// @param x  LPS mm
   void add(const Eigen::Vector3d& x) {
-    const double phi = std::abs(surface_.value(toLocal_ * x));
-    if (phi > max_) place_ = x;
-    max_ = std::max(max_, phi);
-    squares_ += phi * phi;
+    const double phi = phi_.value(toLocal_ * x);
+    const double distance = std::max({phi - highest_, lowest_ - phi, 0.});
+    if (distance > max_) place_ = x;
+    max_ = std::max(max_, distance);
+    squares_ += distance * distance;
     ++points_;
   }
   double max() const { return max_; }
@@ -26,17 +31,18 @@ class Deviation {
   double rms() const { return points_ > 0 ? std::sqrt(squares_ / static_cast<double>(points_)) : 0; }
 
  private:
-  const SignedDistance& surface_;
+  const SignedDistance& phi_;
   Eigen::Isometry3d toLocal_;
+  double lowest_, highest_;
   Eigen::Vector3d place_ = Eigen::Vector3d::Zero();
   double max_ = 0, squares_ = 0;
   std::int64_t points_ = 0;
 };
 
-void measureSurface(const TetMesh& mesh, const std::vector<Triangle>& triangles,
-                    const SignedDistance& surface, const Eigen::Isometry3d& frame, Fidelity& fidelity) {
+void measureSurface(const TetMesh& mesh, const std::vector<Triangle>& triangles, const TargetSurface& target,
+                    Fidelity& fidelity) {
   std::vector<bool> onBoundary(mesh.nodes.size());
-  Deviation deviation(surface, frame);
+  Deviation deviation(target);
   for (const Triangle& triangle : triangles)
     for (const std::int32_t node : triangle) {
       if (!onBoundary[node]) deviation.add(mesh.nodes[node]);
@@ -77,11 +83,11 @@ double boundaryArea(const TetMesh& mesh) {
 }
 
 FidelityReport measureFidelity(const TetMesh& mesh, const std::vector<Triangle>& boundary,
-                               const SignedDistance& surface, const Eigen::Isometry3d& frame,
-                               const LevelSetFromLabelsReport& volumes, const Segmentation& segmentation,
-                               const Tissue& tissue) {
+                               const TargetSurface& target, const LevelSetFromLabelsReport& volumes,
+                               const Segmentation& segmentation, const Tissue& tissue) {
   FidelityReport report;
-  measureSurface(mesh, boundary, surface, frame, report.fidelity);
+  report.fidelity.surfaceOffset = target.offset;
+  measureSurface(mesh, boundary, target, report.fidelity);
   report.fidelity.volume = meshVolume(mesh);
   report.fidelity.labelVolume = volumes.labelVolume;
   report.fidelity.levelSetVolume = volumes.levelSetVolume;

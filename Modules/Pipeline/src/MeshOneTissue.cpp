@@ -114,6 +114,8 @@ class TissueRun {
   /// The mesh in LPS; leaves the level set behind for measure().
   TetMesh generate() {
     Attempt attempt = job_.searchSize ? searchEdgeLength() : attemptWith(job_.plan, kAfterMesh);
+    if (attempt.plan.thinnest < attempt.plan.sizes.smallest && losesThinParts(attempt))
+      refineThinParts(attempt);
     TetMesh mesh = keepVolume(std::move(attempt));
     watch_.lap();
     for (Eigen::Vector3d& node : mesh.nodes) node = frame_ * node;
@@ -154,6 +156,32 @@ class TissueRun {
     watch_.lap();
     done_ = last;
     return attempt;
+  }
+
+  static double volumeError(const Attempt& attempt) {
+    return std::abs(meshVolume(attempt.mesh) / attempt.volumes.levelSetVolume - 1);
+  }
+  static bool losesThinParts(const Attempt& attempt) {
+    constexpr double kMostLost = 0.01;
+    return volumeError(attempt) > kMostLost;
+  }
+
+  /// Meshes once more with the smallest cubes that the plan allows, and takes what keeps the volume better.
+  void refineThinParts(Attempt& attempt) {
+    Attempt finer;
+    finer.plan = attempt.plan;
+    finer.plan.sizes.smallest = attempt.plan.thinnest;
+    finer.volumes = attempt.volumes;
+    GenerateTetMeshOptions options = mesherOptions(finer.plan);
+    options.progress = [this](std::string_view, double) { advance("refining thin parts", kAfterMesh); };
+    try {
+      finer.mesh = generateOn(*attempt.surface, options);
+    } catch (const std::runtime_error&) {
+      return;  // no mesh with smaller cubes: the one before stands
+    }
+    if (volumeError(finer) >= volumeError(attempt)) return;
+    attempt.plan = finer.plan;
+    attempt.mesh = std::move(finer.mesh);
   }
 
   /// Meshes until one has the wanted number of tets; the best one.
@@ -268,11 +296,10 @@ class TissueRun {
     report_.levelSetComponents = topology.components;
     report_.levelSetEuler = topology.eulerCharacteristic;
     compareTopology(mesh);
-    const FidelityReport fidelity =
-        measureFidelity(mesh, boundary.triangles, OffsetSurface(*surface_, surfaceOffset_), frame_, volumes_,
-                        segmentation_, tissue_);
+    const FidelityReport fidelity = measureFidelity(
+        mesh, boundary.triangles, {.phi = *surface_, .offset = surfaceOffset_, .frame = frame_}, volumes_,
+        segmentation_, tissue_);
     report_.fidelity = fidelity.fidelity;
-    report_.fidelity.surfaceOffset = surfaceOffset_;
     report_.lost = fidelity.lost;
     if (!options_.withQuality) surface_.reset();
     lap("measuring");

@@ -45,11 +45,15 @@ LevelSetFromLabelsOptions levelSetOptions(const ImageGeometry& geometry, double 
   return options;
 }
 
-/// Half voxels hold what is two voxels thick; a speck is refined as far as it is sampled.
-double smallestCube(const TissuePlan& plan, double voxel, double wanted) {
-  if (wanted <= 0)
-    return std::min(plan.levelSet.gridSpacing, std::max(0.5 * voxel, kTwoLevelsDown * plan.sizes.edge));
-  return plan.sizeReduced ? std::min(wanted, plan.sizes.edge / 2) : wanted;
+/// The level set's samples are as fine as refinement goes at first, for a speck too; half voxels hold what is
+/// thinner.
+void planSmallestCubes(TissuePlan& plan, double voxel, double wanted) {
+  if (wanted <= 0) {
+    plan.sizes.smallest = plan.levelSet.gridSpacing;
+    plan.thinnest = std::min(plan.sizes.smallest, std::max(0.5 * voxel, kTwoLevelsDown * plan.sizes.edge));
+  } else {
+    plan.thinnest = plan.sizes.smallest = plan.sizeReduced ? std::min(wanted, plan.sizes.edge / 2) : wanted;
+  }
 }
 
 }  // namespace
@@ -66,14 +70,14 @@ TissuePlan planTissue(const Segmentation& segmentation, const Tissue& tissue, do
   plan.sizes.largest = std::max(plan.sizes.edge, std::min(largest, extent.largest));
   plan.sizeReduced = plan.sizes.edge < edge;
   plan.levelSet = levelSetOptions(segmentation.geometry, extent.mean, plan.sizes.edge, options);
-  plan.sizes.smallest = smallestCube(plan, voxel, options.minEdgeLength.millimetres(voxel));
+  planSmallestCubes(plan, voxel, options.minEdgeLength.millimetres(voxel));
   return plan;
 }
 
 TissuePlan planTrial(const Segmentation& segmentation, const Tissue& tissue, double edge,
                      const MeshTissuesOptions& options) {
   TissuePlan plan = planTissue(segmentation, tissue, edge, options);
-  plan.sizes.smallest = std::max(plan.sizes.smallest, kTwoLevelsDown * plan.sizes.edge);
+  plan.thinnest = plan.sizes.smallest = std::max(plan.sizes.smallest, kTwoLevelsDown * plan.sizes.edge);
   return plan;
 }
 

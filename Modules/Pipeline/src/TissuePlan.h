@@ -9,6 +9,7 @@ namespace sinew {
 struct TissuePlan {
   TissueSizes sizes;
   bool sizeReduced = false;  ///< the wanted edge length was larger than the tissue
+  double thinnest = 0;       ///< smallest cube where thin parts would be lost otherwise, mm
   LevelSetFromLabelsOptions levelSet;
 };
 

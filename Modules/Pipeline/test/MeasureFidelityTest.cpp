@@ -58,8 +58,9 @@ TEST(MeasureFidelity, AnOctahedronInASphereIsExact) {
   volumes.labelVolume = 1;
   volumes.levelSetVolume = 2;
   const TetMesh mesh = octahedron(c, r);
-  const FidelityReport report = measureFidelity(mesh, meshBoundary(mesh).triangles, sphere, frame, volumes,
-                                                segmentation, segmentation.tissues.front());
+  const FidelityReport report =
+      measureFidelity(mesh, meshBoundary(mesh).triangles, {.phi = sphere, .frame = frame}, volumes,
+                      segmentation, segmentation.tissues.front());
   const double edge = r - r / std::sqrt(2), centroid = r - r / std::sqrt(3);
   EXPECT_NEAR(report.fidelity.maxBoundaryPhi, 0, 1e-13);
   EXPECT_NEAR(report.fidelity.surfaceMax, centroid, 1e-13);
@@ -90,9 +91,9 @@ TEST(MeasureFidelity, PiecesWithoutAVoxelInTheMeshAreLost) {
     return covered.test(i) || strayVoxel(i) || strayRow(i);
   });
   const test::AnalyticSphere anywhere(Eigen::Vector3d::Zero(), 1);
-  const FidelityReport report =
-      measureFidelity(mesh, meshBoundary(mesh).triangles, anywhere, Eigen::Isometry3d::Identity(), {},
-                      segmentation, segmentation.tissues.front());
+  const FidelityReport report = measureFidelity(mesh, meshBoundary(mesh).triangles,
+                                                {.phi = anywhere, .frame = Eigen::Isometry3d::Identity()}, {},
+                                                segmentation, segmentation.tissues.front());
   EXPECT_EQ(report.lost.components, 2);
   EXPECT_DOUBLE_EQ(report.lost.volume, 4 * segmentation.geometry.voxelVolume());
   const auto n = static_cast<double>(covered.count());

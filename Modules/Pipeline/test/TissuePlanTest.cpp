@@ -42,16 +42,18 @@ TEST(TissuePlan, NoCubeIsLargerThanTheTissue) {
 }
 
 TEST(TissuePlan, RefinementStopsAtTheSmallestCube) {
-  EXPECT_EQ(planOf(2).sizes.smallest, 0.5) << "half a voxel";
-  EXPECT_EQ(planOf(3).sizes.smallest, 0.75) << "a quarter of the edge length";
+  EXPECT_EQ(planOf(2).sizes.smallest, planOf(2).levelSet.gridSpacing);
+  EXPECT_EQ(planOf(2).thinnest, 0.5) << "half a voxel";
+  EXPECT_EQ(planOf(3).thinnest, 0.75) << "a quarter of the edge length";
   MeshTissuesOptions options;
   options.minEdgeLength = 1.5;
   EXPECT_EQ(planOf(2, options).sizes.smallest, 1.5);
+  EXPECT_EQ(planOf(2, options).thinnest, 1.5);
   EXPECT_LT(planOf(50, options).sizes.smallest, 40);
   const Segmentation segmentation = plate();
   EXPECT_EQ(planTrial(segmentation, segmentation.tissues[0], 12, options).sizes.smallest, 3);
   EXPECT_EQ(planTrial(segmentation, segmentation.tissues[0], 2, options).sizes.smallest, 1.5);
-  EXPECT_EQ(planTrial(segmentation, segmentation.tissues[0], 2, {}).sizes.smallest, 0.5);
+  EXPECT_EQ(planTrial(segmentation, segmentation.tissues[0], 2, {}).sizes.smallest, 1);
 }
 
 TEST(TissuePlan, ASpeckMayBeRefinedOnce) {

@@ -41,9 +41,10 @@ struct MeshTissuesOptions {
 enum class TissueStatus { Meshed, Lost, Failed };
 
 struct Fidelity {
-  double surfaceOffset = 0;   ///< the mesh lies on phi = surfaceOffset, mm: not 0 where that keeps the volume
-  double maxBoundaryPhi = 0;  ///< largest distance of a boundary node from that surface, mm
-  double surfaceRms = 0;      ///< distance of boundary nodes, edge midpoints and centroids from it, mm
+  double surfaceOffset = 0;   ///< the boundary was moved from phi = 0 to this, mm, to keep the volume; nodes
+                              ///< that bad tets hold back stay between
+  double maxBoundaryPhi = 0;  ///< largest distance of a boundary node from between the two, mm
+  double surfaceRms = 0;      ///< the same of boundary nodes, edge midpoints and centroids, mm
   double surfaceMax = 0;      ///< mm
   Eigen::Vector3d surfaceMaxPlace = Eigen::Vector3d::Zero();  ///< where it is that far, LPS mm
   double volume = 0;                                          ///< of the mesh, mm^3
