@@ -70,6 +70,57 @@ TEST(KeptSet, EnvelopingPutsBackWhatWasReleased) {
   }
 }
 
+std::vector<std::int32_t> boundaryNodes(const KeptSet& set) {
+  std::vector<std::int32_t> nodes;
+  for (std::size_t n = 0; n < set.enveloped().size(); ++n)
+    if (set.isBoundary(static_cast<std::int32_t>(n))) nodes.push_back(static_cast<std::int32_t>(n));
+  return nodes;
+}
+
+TEST(KeptSet, TakingANodeInKeepsTheConditionsOrChangesNothing) {
+  constexpr std::size_t kMost = 8;
+  int taken = 0, refused = 0;
+  for (unsigned seed = 0; seed < 24; ++seed) {
+    const Background b = backgroundOf(test::randomShape(seed), 2);
+    KeptSet set(b.mesh, b.stars, selectCandidate(b.mesh, b.stars).enveloped);
+    std::mt19937 random(seed);
+    for (int round = 0; round < 6; ++round) {
+      SCOPED_TRACE("seed " + std::to_string(seed) + ", round " + std::to_string(round));
+      const std::vector<std::int32_t> boundary = boundaryNodes(set);
+      const std::int32_t node = boundary[random() % boundary.size()];
+      std::vector<std::uint8_t> expected = set.enveloped();
+      const std::vector<std::int32_t> enveloped = envelopeNode(set, node, kMost);
+      enveloped.empty() ? ++refused : ++taken;
+      EXPECT_LE(enveloped.size(), kMost);
+      EXPECT_EQ(std::ranges::binary_search(enveloped, node), !enveloped.empty());
+      for (const std::int32_t n : enveloped) {
+        EXPECT_EQ(expected[n], 0);
+        expected[n] = 1;
+      }
+      EXPECT_EQ(set.enveloped(), expected);
+      EXPECT_TRUE(meshConditions(extractMesh(b.mesh, set.keep(), 1)).good());
+      expectBoundaryOf(set, b);
+    }
+  }
+  EXPECT_GT(taken, 0);
+  EXPECT_GT(refused, 0) << "else the limit was not tried";
+}
+
+TEST(KeptSet, ReleasingMendsWhatWasNotEnveloped) {
+  int mended = 0;
+  for (unsigned seed = 0; seed < 24; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const Background b = backgroundOf(test::randomShape(seed), 2);
+    KeptSet set(b.mesh, b.stars, selectCandidate(b.mesh, b.stars, {.maxPasses = 0}).enveloped);
+    const bool wasGood = meshConditions(extractMesh(b.mesh, set.keep(), 1)).good();
+    const std::vector<std::int32_t> released = releaseViolations(set, boundaryNodes(set));
+    EXPECT_EQ(released.empty(), wasGood);
+    EXPECT_TRUE(meshConditions(extractMesh(b.mesh, set.keep(), 1)).good());
+    mended += !wasGood;
+  }
+  EXPECT_GT(mended, 0);
+}
+
 TEST(KeptSet, ReleasingNothingChangesNothing) {
   const Background b = backgroundOf(test::AnalyticSphere(Eigen::Vector3d::Zero(), 4), 1);
   KeptSet set(b.mesh, b.stars, selectCandidate(b.mesh, b.stars).enveloped);

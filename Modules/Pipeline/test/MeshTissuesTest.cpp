@@ -1,5 +1,6 @@
 #include "sinew/MeshIO/VtuFile.h"
 #include "sinew/Pipeline/MeshTissues.h"
+#include "sinew/Segmentation/Phantom.h"
 #include "sinew/TestSupport/Files.h"
 #include "sinew/TestSupport/TempFolder.h"
 
@@ -8,6 +9,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 
 namespace sinew {
@@ -133,6 +135,24 @@ TEST(MeshTissues, ASpeckIsMeshedAtTheDefaultSize) {
   EXPECT_NE(thread.message.find("edge length reduced to 0.718 mm"), std::string::npos) << thread.message;
   EXPECT_EQ(thread.topology.components, 1);
   EXPECT_NEAR(thread.fidelity.volume, 10, 1);
+}
+
+TEST(MeshTissues, ThinPartsAreWhole) {
+  const test::TempFolder folder;
+  const Segmentation thin = makePhantom("thin");
+  std::vector<int> all(thin.tissues.size());
+  std::iota(all.begin(), all.end(), 0);
+  int halfVoxels = 0;
+  for (const TissueReport& report : meshTissues(thin, all, folder.path(), {})) {
+    SCOPED_TRACE(report.name);
+    ASSERT_EQ(report.status, TissueStatus::Meshed);
+    EXPECT_NEAR(report.fidelity.volume / report.fidelity.levelSetVolume, 1, 0.005);
+    EXPECT_EQ(report.topology.components, 1);
+    EXPECT_EQ(report.topology.eulerCharacteristic, report.levelSetEuler);
+    halfVoxels += report.minEdgeLength < 0.6 * thin.geometry.meanSpacing();
+  }
+  EXPECT_GT(halfVoxels, 0) << "of the plate or the tube of one voxel";
+  EXPECT_LT(halfVoxels, 4) << "those of two voxels and more do without";
 }
 
 TEST(MeshTissues, TheFilesDoNotDependOnTheNumberOfThreads) {
