@@ -72,15 +72,16 @@ class Comparison:
         run([self.programs.sinew, *arguments, "--json", document, "--force"])
         return json.loads(document.read_text())
 
-    def sinew(self):
-        folder = self.folder / "sinew"
+    def sinew(self, name, *size_options):
+        folder = self.folder / f"sinew{''.join(size_options)}"
         mesh = folder / "mesh.vtu"
 
         def command(size):
+            sizes = [word for option in ("--edge-length", *size_options) for word in (option, f"{size:.6g}mm")]
             return [self.programs.sinew, "mesh", self.source, "--tissue", self.tissue, "-o", folder, "--force",
-                    "--quiet", "--threads", 1, "--edge-length", f"{size:.6g}mm"]
+                    "--quiet", "--threads", 1, *sizes]
 
-        return Mesher("Sinew", command, mesh)
+        return Mesher(name, command, mesh)
 
     def cgal(self, name, *flags):
         mesh = self.folder / f"cgal{''.join(flags)}.vtu"
@@ -129,11 +130,13 @@ class Comparison:
         return statistics.median(run(command).seconds for _ in range(runs))
 
     def rows(self, target, runs):
-        """Meshers with their usages and qualities: Sinew, CGAL, and CGAL without its sliver removal."""
-        sinew, cgal = self.sinew(), self.cgal("CGAL")
+        """Meshers with their usages and qualities: Sinew as by default, with cubes of one size, CGAL, and
+        CGAL without its sliver removal."""
+        sinew, cgal = self.sinew("Sinew"), self.cgal("CGAL")
+        uniform = self.sinew("Sinew, one size", "--max-edge-length", "--min-edge-length")
         plain = self.cgal("CGAL, no exude, no perturb", "--no-exude", "--no-perturb")
         unexuded = self.cgal("CGAL, no exude", "--no-exude")
-        sizes = {sinew: self.size_for(sinew, target), cgal: self.size_for(cgal, target)}
+        sizes = {mesher: self.size_for(mesher, target) for mesher in (sinew, uniform, cgal)}
         sizes[unexuded] = sizes[plain] = sizes[cgal]
         usages = {mesher: [] for mesher in sizes}
         for _ in range(runs):
@@ -194,10 +197,14 @@ def print_table(comparison, target, rows):
     print("|---|" + "---:|" * (len(COLUMNS) - 1))
     for row in rows:
         print("| " + " | ".join(row.cells()) + " |")
-    for peer in rows[1:]:
-        print(f"\nSinew: {rows[0].rate() / peer.rate():.1f} times the tets per CPU second of {peer.name}; "
-              f"{rows[0].inner_rate() / peer.inner_rate():.1f} times without reading.", end="")
-    print(flush=True)
+    print("\nTets per CPU second, whole process (without reading), as multiples of CGAL's:\n")
+    ours, theirs = (([row for row in rows if row.name.startswith(name)]) for name in ("Sinew", "CGAL"))
+    print("| | " + " | ".join(peer.name for peer in theirs) + " |")
+    print("|---|" + "---:|" * len(theirs))
+    for row in ours:
+        ratios = (f"{row.rate() / peer.rate():.1f} ({row.inner_rate() / peer.inner_rate():.1f})"
+                  for peer in theirs)
+        print(f"| {row.name} | " + " | ".join(ratios) + " |", flush=True)
 
 
 def print_circumstances(options):
