@@ -62,7 +62,7 @@ void addOptions(CommandLine& line, MeshCommand& command) {
       ->capture_default_str()
       ->excludes(edgeLength);
   app.add_option("--curvature", meshing.curvature,
-                 "refine where cube size times curvature exceeds this; 0: nowhere")
+                 "refine where cube size times curvature exceeds this; 0: nowhere, nor thin parts")
       ->check(CommandLine::atLeast(0))
       ->capture_default_str();
   line.addLength("--tolerance", meshing.tolerance,

@@ -126,5 +126,16 @@ TEST(PhantomCommand, UnknownNamesAreToldTheKnownOnes) {
   EXPECT_TRUE(namesIn(folder.path()).empty());
 }
 
+TEST(PhantomCommand, VoxelsTooLargeForTheTissuesAreRefused) {
+  const TempFolder folder;
+  const ProgramResult result =
+      run({"phantom", "torus", "--spacing", "1000", "-o", (folder / "a.nrrd").string()});
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_TRUE(isOneErrorLine(result.err)) << result.err;
+  EXPECT_NE(result.err.find("no voxel lies in a tissue; use a smaller --spacing"), std::string::npos)
+      << result.err;
+  EXPECT_TRUE(namesIn(folder.path()).empty());
+}
+
 }  // namespace
 }  // namespace sinew::test
