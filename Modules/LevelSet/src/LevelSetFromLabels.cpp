@@ -1,6 +1,6 @@
 #include "sinew/LevelSet/LevelSetFromLabels.h"
 
-#include "sinew/LevelSet/FastMarching.h"
+#include "sinew/LevelSet/BandDistance.h"
 #include "sinew/LevelSet/FieldResampling.h"
 #include "sinew/LevelSet/FieldVolume.h"
 #include "sinew/LevelSet/GaussianSmoothing.h"
@@ -258,7 +258,7 @@ LevelSet levelSetFromLabels(const Segmentation& segmentation, const Tissue& tiss
   TissueField field = tissueField(segmentation, tissue, plan, options.smoothingVoxels);
 
   const Eigen::Vector3d spacing = Eigen::Vector3d::Constant(plan.h);
-  fastMarching(field.phi, spacing, plan.reach);
+  bandDistance(field.phi, spacing, plan.reach);
   const double volume = static_cast<double>(tissue.voxels) * segmentation.geometry.voxelVolume();
   const double offset =
       options.smoothingVoxels > 0 ? volumeOffset(field.phi, spacing, volume, plan.largestOffset) : 0;

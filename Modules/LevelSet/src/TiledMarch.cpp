@@ -1,14 +1,12 @@
-#include "sinew/LevelSet/FastMarching.h"
+#include "TiledMarch.h"
 
 #include "BandMarch.h"
-#include "SurfaceSeeds.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <stdexcept>
 
 namespace sinew {
 namespace {
@@ -21,8 +19,9 @@ constexpr int kTile = 96;
 /// samples they read nothing but the sign, which never changes, hence the relaxed atomic access.
 class TiledMarch {
  public:
-  TiledMarch(DenseField& phi, const Eigen::Vector3d& spacing, double band)
-      : phi_(phi), spacing_(spacing), band_(band), seeds_(surfaceSeeds(phi, spacing)) {
+  TiledMarch(DenseField& phi, const std::vector<std::vector<SurfaceSeed>>& seeds,
+             const Eigen::Vector3d& spacing, double band)
+      : phi_(phi), seeds_(seeds), spacing_(spacing), band_(band) {
     constexpr int kMargin = 2;  // of the differences at the halo's edge
     halo_ = (band / spacing.array()).ceil().cast<int>() + kMargin;
     tiles_ = (phi.size.array() + kTile - 1) / kTile;
@@ -108,18 +107,17 @@ class TiledMarch {
   }
 
   DenseField& phi_;
+  const std::vector<std::vector<SurfaceSeed>>& seeds_;
   Eigen::Vector3d spacing_;
   double band_;
-  std::vector<std::vector<SurfaceSeed>> seeds_;
   Eigen::Vector3i halo_, tiles_;
 };
 
 }  // namespace
 
-void fastMarching(DenseField& phi, const Eigen::Vector3d& spacing, double band) {
-  if (!(spacing.array() > 0).all() || !(band > 0))
-    throw std::invalid_argument("fastMarching: spacing and band must be positive");
-  TiledMarch(phi, spacing, band).run();
+void tiledMarch(DenseField& phi, const std::vector<std::vector<SurfaceSeed>>& seeds,
+                const Eigen::Vector3d& spacing, double band) {
+  TiledMarch(phi, seeds, spacing, band).run();
 }
 
 }  // namespace sinew

@@ -29,7 +29,7 @@ double defaultGridSpacing(const ImageGeometry& geometry);
 /// Turns the voxels of one tissue into a signed distance: crop with a margin of background, in blocks of
 /// voxels where the grid is that much coarser, Gauss with the iso value that keeps the label's volume and
 /// with levels of their own for thin parts, or slice-wise 2-D distances and shape interpolation across thick
-/// slices, resampling to an isotropic grid, second-order narrow-band fast marching, and an offset (below half
+/// slices, resampling to an isotropic grid, narrow-band fast marching (second order within three samples), and an offset (below half
 /// a voxel) that makes the volume right. The grid's axes are the rotation nearest to the image's; one is
 /// reversed where the image is left-handed, and the axis across thick slices comes last.
 ///
