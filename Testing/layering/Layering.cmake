@@ -19,7 +19,7 @@ set(include_CLI11 "^CLI/")
 set(include_json "^nlohmann/")
 set(allowed_ITK "^Modules/Segmentation/(src|test|bench)/")
 set(allowed_VTK "^Modules/MeshIO/(src|test|bench)/")
-set(allowed_OpenVDB "^Modules/LevelSet/((src|test|bench)/|include/sinew/LevelSet/LevelSetGrid\\.h$)|^Modules/Pipeline/(src|test|bench)/LevelSetSurface(Test|Bench)?\\.cpp$|^Modules/Pipeline/test/SampledLevelSet\\.cpp$")
+set(allowed_OpenVDB "^Modules/LevelSet/((src|test|bench)/|include/sinew/LevelSet/LevelSetGrid\\.h$)")
 set(allowed_CLI11 "^Applications/")
 set(allowed_json "^(Modules/Pipeline/(src|test|bench)|Applications)/")
 

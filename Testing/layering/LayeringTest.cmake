@@ -29,7 +29,7 @@ set(seeds
   "Modules/MeshIO/include/sinew/MeshIO/A.h|<vtkPoints.h>|bad"
   "Modules/Pipeline/src/A.cpp|\"sinew/MeshIO/VtuFile.h\"|fine"
   "Modules/Pipeline/src/B.cpp|<nlohmann/json.hpp>|fine"
-  "Modules/Pipeline/src/LevelSetSurface.cpp|<openvdb/openvdb.h>|fine"
+  "Modules/Pipeline/src/LevelSetSurface.cpp|<openvdb/openvdb.h>|bad"
   "Modules/Pipeline/src/C.cpp|\"sinew/LevelSet/LevelSetGrid.h\"|bad"
   "Modules/Pipeline/src/D.cpp|<openvdb/openvdb.h>|bad"
   "Modules/Pipeline/include/sinew/Pipeline/A.h|<nlohmann/json.hpp>|bad"

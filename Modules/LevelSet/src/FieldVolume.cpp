@@ -55,7 +55,7 @@ double voxelFraction(const PhiStencil& phi, const Eigen::Vector3d& spacing, doub
 
 double fieldVolume(const DenseField& phi, const Eigen::Vector3d& spacing, double level) {
   const Eigen::Vector3i last = phi.size - Eigen::Vector3i::Ones();
-  const double reach = spacing.norm();
+  const double reach = kCutReach * spacing.norm();
   const auto low = static_cast<float>(level - reach), high = static_cast<float>(level + reach);
   const auto sliceVolume = [&](int k) {
     double voxels = 0;

@@ -2,6 +2,7 @@
 
 #include "sinew/LevelSet/LevelSetGrid.h"
 
+#include <openvdb/tools/Dense.h>
 #include <openvdb/tools/Prune.h>
 #include <openvdb/tools/SignedFloodFill.h>
 #include <tbb/parallel_for.h>
@@ -85,6 +86,20 @@ LevelSet levelSetFromField(const DenseLevelSet& dense, double offset) {
   result.band = dense.band;
   result.upper = dense.phi.size - Eigen::Vector3i::Ones();
   return result;
+}
+
+DenseLevelSet fieldFromLevelSet(const LevelSet& levelSet) {
+  const Eigen::Vector3i &lower = levelSet.lower, &upper = levelSet.upper;
+  DenseLevelSet dense;
+  dense.phi = DenseField(upper - lower + Eigen::Vector3i::Ones());
+  using Raster = openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ>;
+  Raster raster(openvdb::CoordBBox({lower.x(), lower.y(), lower.z()}, {upper.x(), upper.y(), upper.z()}),
+                dense.phi.values.data());
+  openvdb::tools::copyToDense(*levelSet.grid->grid, raster);
+  dense.frame = levelSet.frame * Eigen::Translation3d(levelSet.voxelSize * lower.cast<double>());
+  dense.voxelSize = levelSet.voxelSize;
+  dense.band = levelSet.band;
+  return dense;
 }
 
 }  // namespace sinew

@@ -1,12 +1,10 @@
 #include "sinew/LevelSet/LevelSetFromLabels.h"
 
-#include "sinew/LevelSet/FastMarching.h"
+#include "sinew/LevelSet/BandDistance.h"
 #include "sinew/LevelSet/FieldResampling.h"
 #include "sinew/LevelSet/FieldVolume.h"
 #include "sinew/LevelSet/GaussianSmoothing.h"
 #include "sinew/LevelSet/LabelCrop.h"
-#include "sinew/LevelSet/LevelSetFromField.h"
-#include "sinew/LevelSet/LevelSetMeasures.h"
 #include "sinew/LevelSet/SliceDistances.h"
 #include "sinew/LevelSet/SliceInterpolation.h"
 #include "sinew/LevelSet/SliceSmoothing.h"
@@ -15,6 +13,7 @@
 #include "sinew/LevelSet/VolumeKeepingIso.h"
 
 #include <Eigen/SVD>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -245,26 +244,37 @@ double volumeOffset(const DenseField& phi, const Eigen::Vector3d& spacing, doubl
   return volumeKeepingLevel(phi, spacing, volume, -std::min(largest, depth / 2), largest);
 }
 
+/// Moves the zero set outward by `offset`, and narrows the band.
+void moveSurface(DenseField& phi, float offset, float band) {
+  tbb::parallel_for(0, phi.size.z(), [&](int k) {
+    float* slice = phi.row(0, k);
+    const std::size_t samples = phi.index(0, 0, 1);
+    for (std::size_t n = 0; n < samples; ++n) slice[n] = std::clamp(slice[n] - offset, -band, band);
+  });
+}
+
 }  // namespace
 
 double defaultGridSpacing(const ImageGeometry& geometry) {
   return std::max(geometry.spacing.minCoeff(), 0.5 * geometry.meanSpacing());
 }
 
-LevelSet levelSetFromLabels(const Segmentation& segmentation, const Tissue& tissue,
-                            const LevelSetFromLabelsOptions& options, LevelSetFromLabelsReport* report) {
+DenseLevelSet denseLevelSetFromLabels(const Segmentation& segmentation, const Tissue& tissue,
+                                      const LevelSetFromLabelsOptions& options,
+                                      LevelSetFromLabelsReport* report) {
   checkOptions(options);
   const Plan plan = makePlan(segmentation.geometry, options);
   TissueField field = tissueField(segmentation, tissue, plan, options.smoothingVoxels);
 
   const Eigen::Vector3d spacing = Eigen::Vector3d::Constant(plan.h);
-  fastMarching(field.phi, spacing, plan.reach);
+  bandDistance(field.phi, spacing, plan.reach);
   const double volume = static_cast<double>(tissue.voxels) * segmentation.geometry.voxelVolume();
   const double offset =
       options.smoothingVoxels > 0 ? volumeOffset(field.phi, spacing, volume, plan.largestOffset) : 0;
-  LevelSet result = levelSetFromField({field.phi, field.frame, plan.h, options.bandVoxels * plan.h}, offset);
-  if (report != nullptr) *report = {field.iso, plan.thick, volume, levelSetVolume(result)};
-  return result;
+  const double band = options.bandVoxels * plan.h;
+  moveSurface(field.phi, static_cast<float>(offset), static_cast<float>(band));
+  if (report != nullptr) *report = {field.iso, plan.thick, volume, fieldVolume(field.phi, spacing)};
+  return {std::move(field.phi), field.frame, plan.h, band};
 }
 
 }  // namespace sinew

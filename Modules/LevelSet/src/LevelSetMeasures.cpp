@@ -19,7 +19,7 @@ using Tree = openvdb::FloatTree;
 double leafVolume(const Tree::LeafNodeType& leaf, const openvdb::tree::ValueAccessor<const Tree>& phi,
                   double voxelSize) {
   const Eigen::Vector3d spacing = Eigen::Vector3d::Constant(voxelSize);
-  const double reach = spacing.norm();
+  const double reach = kCutReach * spacing.norm();
   double voxels = 0;
   for (auto it = leaf.cbeginValueAll(); it; ++it) {
     if (*it >= reach) continue;

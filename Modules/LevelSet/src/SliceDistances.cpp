@@ -53,69 +53,71 @@ bool alongLine(const SliceView& view, int line, std::vector<float>& squared) {
   return any;
 }
 
-/// Lower envelope of the parabolas f_l + (h (x - l))^2, over the lines l where f_l is finite.
+/// Lower envelope of the parabolas f_l + (h (x - l))^2 over lines l.
 class Envelope {
  public:
-  explicit Envelope(int lines)
-      : at_(static_cast<std::size_t>(lines)), from_(static_cast<std::size_t>(lines) + 1) {}
+  Envelope(int samples, float spacing) : squaredSpacing_(spacing * spacing) {
+    pieces_.resize(static_cast<std::size_t>(samples) + 1);
+    for (int d = 0; d < samples; ++d) halfInverse_.push_back(0.5 / d);
+  }
 
-  /// Writes min_l into f itself. f holds one value per line; `spacing` is h.
-  void lower(std::vector<float>& f, const std::vector<int>& lines, float spacing, std::vector<float>& out) {
-    const double h2 = double{spacing} * spacing;
-    std::size_t top = 0;
-    bool empty = true;
-    for (const int l : lines) {
-      const double height = f[static_cast<std::size_t>(l)] / h2 + double{1} * l * l;
-      double cut = -std::numeric_limits<double>::infinity();
-      while (!empty) {
-        const int v = at_[top];
-        cut = (height - (f[static_cast<std::size_t>(v)] / h2 + double{1} * v * v)) / (2.0 * (l - v));
-        if (cut > from_[top]) break;
-        if (top == 0)
-          empty = true;
-        else
-          --top;
+  /// Writes min_l into out[x] for all x, with f[n] the parabola's foot at lines[n], ascending.
+  void lower(const std::vector<int>& lines, const std::vector<float>& f, std::vector<float>& out) {
+    const double perSquare = 1 / squaredSpacing_;
+    std::size_t count = 0;
+    for (std::size_t n = 0; n < lines.size(); ++n) {
+      const int l = lines[n];
+      const double height = f[n] * perSquare + double{1} * l * l;
+      double cut = -kNone;
+      // l takes over from line v where  height_l - 2 x l = height_v - 2 x v.
+      for (; count > 0; --count) {
+        const Piece& last = pieces_[count - 1];
+        cut = (height - last.height) * halfInverse_[static_cast<std::size_t>(l - last.line)];
+        if (cut > last.from) break;
       }
-      if (empty) {
-        cut = -std::numeric_limits<double>::infinity();
-        empty = false;
-      } else {
-        ++top;
-      }
-      at_[top] = l;
-      from_[top] = cut;
+      pieces_[count] = {l, f[n], height, count > 0 ? cut : -kNone};
+      ++count;
     }
-    const std::size_t last = top;
-    std::size_t piece = 0;
-    for (std::size_t x = 0; x < f.size(); ++x) {
-      while (piece < last && from_[piece + 1] < static_cast<double>(x)) ++piece;
-      const auto away = static_cast<float>(static_cast<int>(x) - at_[piece]) * spacing;
-      out[x] = f[static_cast<std::size_t>(at_[piece])] + away * away;
+    pieces_[count].from = kNone;
+    const int samples = static_cast<int>(out.size());
+    for (std::size_t p = 0, x = 0; p < count; ++p) {
+      const double next = pieces_[p + 1].from;  // where it begins the two are equal
+      const auto end = static_cast<std::size_t>(next < samples ? std::max(std::ceil(next), 0.0) : samples);
+      for (; x < end; ++x) {
+        const float away = static_cast<float>(static_cast<int>(x) - pieces_[p].line);
+        out[x] = pieces_[p].foot + squaredSpacing_ * away * away;
+      }
     }
   }
 
  private:
-  std::vector<int> at_;
-  std::vector<double> from_;
+  struct Piece {
+    int line;
+    float foot;
+    double height, from;  ///< foot + line^2 in squared spacings; where the piece begins
+  };
+  float squaredSpacing_;
+  std::vector<Piece> pieces_;
+  std::vector<double> halfInverse_;  ///< 1 / (2 d)
 };
 
 /// Lowers `squared` (laid out like the slice) to the squared distance from the crossings on the view's lines.
 void lowerToCrossings(const SliceView& view, std::vector<float>& squared) {
-  std::vector<std::vector<float>> table;
   std::vector<int> lines;
+  std::vector<float> table;  // line after line
   std::vector<float> line(static_cast<std::size_t>(view.n));
   for (int l = 0; l < view.lines; ++l) {
     if (!alongLine(view, l, line)) continue;
     lines.push_back(l);
-    table.push_back(line);
+    table.insert(table.end(), line.begin(), line.end());
   }
   if (lines.empty()) return;
-  Envelope envelope(view.lines);
-  std::vector<float> f(static_cast<std::size_t>(view.lines)), out(f.size());
+  Envelope envelope(view.lines, view.across);
+  std::vector<float> f(lines.size()), out(static_cast<std::size_t>(view.lines));
   for (int s = 0; s < view.n; ++s) {
-    for (std::size_t l = 0; l < lines.size(); ++l)
-      f[static_cast<std::size_t>(lines[l])] = table[l][static_cast<std::size_t>(s)];
-    envelope.lower(f, lines, view.across, out);
+    for (std::size_t n = 0; n < lines.size(); ++n)
+      f[n] = table[n * line.size() + static_cast<std::size_t>(s)];
+    envelope.lower(lines, f, out);
     for (int l = 0; l < view.lines; ++l) {
       float& d = squared[static_cast<std::size_t>(s * view.step + l * view.next)];
       d = std::min(d, out[static_cast<std::size_t>(l)]);

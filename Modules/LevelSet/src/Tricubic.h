@@ -22,42 +22,46 @@ inline CubicWeights cubicWeights(double t) {
 }
 
 /// Value and gradient of the tricubic interpolant at a continuous index; beyond the raster lies the nearest
-/// sample.
+/// sample. Sums are in float, as the samples are: four of a row at a time.
 struct TricubicSample {
   double value = 0;
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  ///< per index
 };
 
 inline TricubicSample tricubicSample(const DenseField& f, const Eigen::Vector3d& at) {
+  using Four = Eigen::Array4f;
   std::array<std::array<int, 4>, 3> index;
-  std::array<CubicWeights, 3> w;
+  std::array<Four, 3> w, slope;
   for (std::size_t a = 0; a < 3; ++a) {
     const auto axis = static_cast<Eigen::Index>(a);
     const int last = f.size[axis] - 1;
     const double x = std::clamp(at[axis], 0.0, static_cast<double>(last));
     const int base = std::min(static_cast<int>(x), std::max(last - 1, 0));
-    w[a] = cubicWeights(x - base);
+    const CubicWeights weights = cubicWeights(x - base);
+    w[a] = Eigen::Map<const Eigen::Array4d>(weights.value.data()).cast<float>();
+    slope[a] = Eigen::Map<const Eigen::Array4d>(weights.slope.data()).cast<float>();
     for (int s = 0; s < 4; ++s) index[a][static_cast<std::size_t>(s)] = std::clamp(base + s - 1, 0, last);
   }
-  TricubicSample result;
-  for (std::size_t k = 0; k < 4; ++k) {
-    double plane = 0, planeX = 0, planeY = 0;
-    for (std::size_t j = 0; j < 4; ++j) {
-      const float* row = f.row(index[1][j], index[2][k]);
-      double line = 0, lineX = 0;
-      for (std::size_t i = 0; i < 4; ++i) {
-        const double sample = row[index[0][i]];
-        line += w[0].value[i] * sample;
-        lineX += w[0].slope[i] * sample;
-      }
-      plane += w[1].value[j] * line;
-      planeX += w[1].value[j] * lineX;
-      planeY += w[1].slope[j] * line;
+  const std::array<int, 4>& x = index[0];
+  const bool inARow = x[3] - x[0] == 3;
+  Four sum = Four::Zero(), alongY = Four::Zero(), alongZ = Four::Zero();
+  for (int k = 0; k < 4; ++k) {
+    Four plane = Four::Zero(), planeY = Four::Zero();
+    for (int j = 0; j < 4; ++j) {
+      const float* row = f.row(index[1][static_cast<std::size_t>(j)], index[2][static_cast<std::size_t>(k)]);
+      const Four line = inARow ? Four(Eigen::Map<const Four>(row + x[0]))
+                               : Four(row[x[0]], row[x[1]], row[x[2]], row[x[3]]);
+      plane += w[1][j] * line;
+      planeY += slope[1][j] * line;
     }
-    result.value += w[2].value[k] * plane;
-    result.gradient += Eigen::Vector3d(w[2].value[k] * planeX, w[2].value[k] * planeY, w[2].slope[k] * plane);
+    sum += w[2][k] * plane;
+    alongY += w[2][k] * planeY;
+    alongZ += slope[2][k] * plane;
   }
-  return result;
+  const auto folded = [](const Four& weights, const Four& samples) {
+    return static_cast<double>((weights * samples).sum());
+  };
+  return {folded(w[0], sum), {folded(slope[0], sum), folded(w[0], alongY), folded(w[0], alongZ)}};
 }
 
 }  // namespace sinew

@@ -6,6 +6,9 @@
 
 namespace sinew {
 
+/// A voxel is cut when its mean lies within half of its diagonal; the mean differs a little from its phi.
+inline constexpr double kCutReach = 0.6;
+
 /// phi at a voxel and at its six neighbours: before and after along each axis.
 struct PhiStencil {
   double centre;

@@ -56,6 +56,19 @@ TEST(LevelSetFromField, AnOffsetMovesTheSurfaceOutward) {
   EXPECT_FLOAT_EQ(values.getValue({22, 22, 38}), phi(22, 22, 38) - 0.25F);
 }
 
+TEST(LevelSetFromField, TheWayBackGivesTheSameField) {
+  LevelSet levelSet = levelSetFromField({ball(), someFrame(), kVoxel, kBand});
+  const DenseLevelSet whole = fieldFromLevelSet(levelSet);
+  EXPECT_EQ(whole.phi.values, ball().values);
+  EXPECT_TRUE(whole.frame.isApprox(someFrame()));
+  levelSet.lower = {3, 4, -2};
+  const DenseLevelSet part = fieldFromLevelSet(levelSet);
+  EXPECT_EQ(part.phi.size, Eigen::Vector3i(42, 42, 49));
+  EXPECT_EQ(part.phi(20, 21, 12), ball()(23, 25, 10));
+  EXPECT_EQ(part.phi(20, 21, 1), static_cast<float>(kBand)) << "beyond the field";
+  EXPECT_LT((part.frame * Vector3d::Zero() - someFrame() * (kVoxel * Vector3d(3, 4, -2))).norm(), 1e-12);
+}
+
 TEST(LevelSetFromField, TheNumberOfThreadsDoesNotShow) {
   const DenseField phi = ball();
   const auto run = [&] { return levelSetFromField({phi, someFrame(), kVoxel, kBand}).grid->grid; };

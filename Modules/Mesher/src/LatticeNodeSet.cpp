@@ -1,5 +1,6 @@
 #include "sinew/Mesher/LatticeNodeSet.h"
 
+#include <bit>
 #include <stdexcept>
 
 namespace sinew {
@@ -34,7 +35,7 @@ void LatticeNodeSet::rank() {
     if (page < 0) continue;
     for (int w = 0; w < kWords; ++w) {
       ranks_[page][w] = count;
-      count += std::popcount(pages_[page][w]);
+      count += countOnes(pages_[page][w]);
     }
   }
   size_ = count;

@@ -1,8 +1,6 @@
 #include "LevelSetSurface.h"
-#include "sinew/LevelSet/LevelSetGrid.h"
 
 #include <benchmark/benchmark.h>
-#include <openvdb/tools/LevelSetSphere.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,13 +10,19 @@
 namespace sinew {
 namespace {
 
-LevelSet sphereOfRadius(int voxels) {
-  LevelSet levelSet;
+double middle(double radius) { return radius + 5; }
+
+DenseLevelSet sphereOfRadius(int voxels) {
+  const double centre = middle(voxels);
+  DenseLevelSet levelSet;
   levelSet.band = 4;
-  levelSet.lower = Eigen::Vector3i::Constant(-voxels - 5);
-  levelSet.upper = Eigen::Vector3i::Constant(voxels + 5);
-  levelSet.grid = std::make_shared<LevelSetGrid>(LevelSetGrid{
-      openvdb::tools::createLevelSetSphere<openvdb::FloatGrid>(float(voxels), openvdb::Vec3f(0), 1, 4)});
+  levelSet.phi = DenseField(Eigen::Vector3i::Constant(2 * voxels + 11));
+  for (int k = 0; k < levelSet.phi.size.z(); ++k)
+    for (int j = 0; j < levelSet.phi.size.y(); ++j)
+      for (int i = 0; i < levelSet.phi.size.x(); ++i) {
+        const double distance = (Eigen::Array3d(i, j, k) - centre).matrix().norm() - voxels;
+        levelSet.phi(i, j, k) = static_cast<float>(std::clamp(distance, -4.0, 4.0));
+      }
   return levelSet;
 }
 
@@ -30,7 +34,7 @@ std::vector<Eigen::Vector3d> bandPoints(double radius) {
   std::vector<Eigen::Vector3d> points(1 << 16);
   for (Eigen::Vector3d& point : points) {
     point = Eigen::Vector3d(normal(random), normal(random), normal(random));
-    point *= (radius + offset(random)) / point.norm();
+    point = (point.normalized() * (radius + offset(random))).array() + middle(radius);
   }
   return points;
 }
@@ -78,7 +82,7 @@ BENCHMARK_CAPTURE(valueAndGradient, random, &bandPoints)->Arg(32)->Arg(100)->Arg
 BENCHMARK_CAPTURE(valueAndGradient, sorted, &sortedBandPoints)->Arg(32)->Arg(100)->Arg(250);
 
 void construction(benchmark::State& state) {
-  const LevelSet levelSet = sphereOfRadius(int(state.range(0)));
+  const DenseLevelSet levelSet = sphereOfRadius(int(state.range(0)));
   for (auto _ : state) benchmark::DoNotOptimize(LevelSetSurface(levelSet));
 }
 BENCHMARK(construction)->Arg(32)->Arg(100)->Arg(250)->Unit(benchmark::kMillisecond);

@@ -71,8 +71,8 @@ MeshAssessment assessMesh(const std::filesystem::path& file, const Segmentation&
   MeshTissuesOptions meshing;
   meshing.levelSet = options;
   const double edge = meshing.edgeLength.millimetres(reference.geometry.meanSpacing());
-  const LevelSet levelSet =
-      levelSetFromLabels(reference, tissue, planTissue(reference, tissue, edge, meshing).levelSet, &volumes);
+  const DenseLevelSet levelSet = denseLevelSetFromLabels(
+      reference, tissue, planTissue(reference, tissue, edge, meshing).levelSet, &volumes);
   const LevelSetSurface surface(levelSet);
   const FidelityReport fidelity = measureFidelity(
       mesh, boundary.triangles, {.phi = surface, .frame = levelSet.frame}, volumes, reference, tissue);

@@ -1,80 +1,91 @@
 #include "LevelSetSurface.h"
 
-#include "sinew/LevelSet/LevelSetGrid.h"
-
-#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
 
 namespace sinew {
 namespace {
 
-/// The values that one leaf of the tree gives to a brick and its lower neighbours.
-struct Source {
-  const float* leaf = nullptr;  ///< 8^3 values, z fastest; nullptr for a tile
-  float tile = 0;               ///< the value of all of a tile
+/// The nodes of one brick: values of a raster, and `beyond` around it.
+class BrickReader {
+ public:
+  static constexpr int kNodes = 9;
 
-  float at(int x, int y, int z) const { return leaf ? leaf[(x * 8 + y) * 8 + z] : tile; }
+  BrickReader(const DenseField& phi, float beyond) : phi_(phi), beyond_(beyond) {}
+
+  /// Gives visit(x, y, z, value) the nodes from `first` on, x fastest, until it returns false.
+  template <typename Visit>
+  bool visit(const Eigen::Vector3i& first, const Visit& visit) const {
+    for (int z = 0; z < kNodes; ++z)
+      for (int y = 0; y < kNodes; ++y) {
+        const int j = first.y() + y, k = first.z() + z;
+        const bool outside = j < 0 || k < 0 || j >= phi_.size.y() || k >= phi_.size.z();
+        const float* row = outside ? nullptr : phi_.row(j, k);
+        for (int x = 0; x < kNodes; ++x) {
+          const int i = first.x() + x;
+          const float value = outside || i < 0 || i >= phi_.size.x() ? beyond_ : row[i];
+          if (!visit(x, y, z, value)) return false;
+        }
+      }
+    return true;
+  }
+
+ private:
+  const DenseField& phi_;
+  float beyond_;
 };
-
-Source sourceAt(const openvdb::FloatTree& tree, const openvdb::Coord& origin) {
-  if (const auto* leaf = tree.probeConstLeaf(origin)) return {leaf->buffer().data(), 0};
-  return {nullptr, tree.getValue(origin)};
-}
-
-int floorToMultipleOf8(int index) { return index & ~7; }
 
 }  // namespace
 
-LevelSetSurface::LevelSetSurface(const LevelSet& levelSet)
+LevelSetSurface::LevelSetSurface(const DenseLevelSet& levelSet)
     : voxelSize_(levelSet.voxelSize),
       inverseVoxelSize_(1 / levelSet.voxelSize),
       band_(levelSet.band),
-      bounds_(levelSet.voxelSize * levelSet.lower.cast<double>(),
-              levelSet.voxelSize * levelSet.upper.cast<double>()),
-      // The cells beside the box still mix values of the box with the background.
-      origin_((levelSet.lower.array() - 1).unaryExpr(&floorToMultipleOf8)),
-      count_((levelSet.upper - origin_).array() / kCells + 1),
+      bounds_(Eigen::Vector3d::Zero(),
+              levelSet.voxelSize * (levelSet.phi.size.array() - 1).cast<double>().matrix()),
+      // The cells beside the raster still mix its values with the band.
+      origin_(Eigen::Vector3i::Constant(-1)),
+      count_((levelSet.phi.size.array() + kCells) / kCells),
       extent_((count_ * kCells).cast<double>()),
       table_(static_cast<std::size_t>(count_.x()) * count_.y() * count_.z()) {
-  const openvdb::FloatTree& tree = levelSet.grid->grid->constTree();
-  // One layer more than bricks: a brick's last nodes lie in the next leaves.
-  const Eigen::Vector3i sourceCount = count_.array() + 1;
-  std::vector<Source> sources(static_cast<std::size_t>(sourceCount.x()) * sourceCount.y() * sourceCount.z());
-  const auto sourceOf = [&](int x, int y, int z) -> Source& {
-    return sources[(static_cast<std::size_t>(x) * sourceCount.y() + y) * sourceCount.z() + z];
+  static_assert(BrickReader::kNodes == kNodes);
+  const auto band = static_cast<float>(band_);
+  const BrickReader reader(levelSet.phi, band);
+  const auto first = [&](int x, int y, int z) -> Eigen::Vector3i {
+    return origin_ + kCells * Eigen::Vector3i(x, y, z);
   };
-  tbb::parallel_for(0, sourceCount.x(), [&](int x) {
-    for (int y = 0; y < sourceCount.y(); ++y)
-      for (int z = 0; z < sourceCount.z(); ++z)
-        sourceOf(x, y, z) =
-            sourceAt(tree, openvdb::Coord(origin_.x() + 8 * x, origin_.y() + 8 * y, origin_.z() + 8 * z));
-  });
-
-  std::vector<Eigen::Vector3i> banded;  // places of the bricks with values of their own
-  std::uint32_t bricks = kOutside + 1;
-  for (int x = 0; x < count_.x(); ++x)
+  constexpr std::uint32_t kBanded = kOutside + 1;
+  tbb::parallel_for(0, count_.x(), [&](int x) {
     for (int y = 0; y < count_.y(); ++y)
       for (int z = 0; z < count_.z(); ++z) {
-        const float first = sourceOf(x, y, z).tile;
-        bool constant = true;
-        for (int corner = 0; corner < 8 && constant; ++corner) {
-          const Source& source = sourceOf(x + (corner & 1), y + (corner >> 1 & 1), z + (corner >> 2));
-          constant = !source.leaf && source.tile == first;
-        }
-        if (!constant) banded.push_back({x, y, z});
-        table_[entry({x, y, z})] = !constant ? bricks++ : first < 0 ? kInside : kOutside;
+        std::array<bool, 3> has{};  // -band, +band, values of its own
+        const bool constant = reader.visit(first(x, y, z), [&](int, int, int, float value) {
+          has[value == -band ? kInside : value == band ? kOutside : kBanded] = true;
+          return has[kInside] + has[kOutside] + 2 * has[kBanded] < 2;
+        });
+        table_[entry({x, y, z})] = !constant ? kBanded : has[kInside] ? kInside : kOutside;
       }
+  });
+  std::uint32_t bricks = kBanded;
+  for (std::uint32_t& brick : table_)
+    if (brick == kBanded) brick = bricks++;
 
   values_.resize(bricks * kBrickSize);
-  std::fill_n(values_.begin() + kInside * kBrickSize, kBrickSize, -static_cast<float>(band_));
-  std::fill_n(values_.begin() + kOutside * kBrickSize, kBrickSize, static_cast<float>(band_));
-  tbb::parallel_for(std::size_t{0}, banded.size(), [&](std::size_t b) {
-    const Eigen::Vector3i& place = banded[b];
-    float* out = values_.data() + table_[entry(place)] * kBrickSize;
-    for (int x = 0; x < kNodes; ++x)
-      for (int y = 0; y < kNodes; ++y)
-        for (int z = 0; z < kNodes; ++z)
-          *out++ = sourceOf(place.x() + x / 8, place.y() + y / 8, place.z() + z / 8).at(x % 8, y % 8, z % 8);
+  std::fill_n(values_.begin() + kInside * kBrickSize, kBrickSize, -band);
+  std::fill_n(values_.begin() + kOutside * kBrickSize, kBrickSize, band);
+  tbb::parallel_for(0, count_.x(), [&](int x) {
+    for (int y = 0; y < count_.y(); ++y)
+      for (int z = 0; z < count_.z(); ++z) {
+        const std::uint32_t brick = table_[entry({x, y, z})];
+        if (brick < kBanded) continue;
+        float* out = values_.data() + brick * kBrickSize;
+        reader.visit(first(x, y, z), [&](int i, int j, int k, float value) {
+          out[i * kStrideX + j * kStrideY + k] = value;
+          return true;
+        });
+      }
   });
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sinew/LevelSet/LevelSet.h"
+#include "sinew/LevelSet/DenseLevelSet.h"
 #include "sinew/Mesher/SignedDistance.h"
 
 #include <array>
@@ -9,16 +9,17 @@
 
 namespace sinew {
 
-/// The door from OpenVDB to the Mesher: the trilinear interpolant of a level set and its exact gradient, in
-/// the level set's own frame: x = voxelSize * grid index, mm. `LevelSet::frame` leads from there to LPS.
+/// The door from a level set to the Mesher: its trilinear interpolant, +band beyond the raster, and the exact
+/// gradient, in the level set's own frame: x = voxelSize * index, mm. `DenseLevelSet::frame` leads from there
+/// to LPS.
 ///
 /// The values are copied into bricks of 8^3 cells with the nodes on all their faces (9^3 values), one table
 /// entry per brick of the box, so that any sample costs one table entry and eight values of one brick; bricks
-/// outside of the narrow band share two constant ones. The grid is not needed afterwards.
+/// outside of the narrow band share two constant ones. The level set is not needed afterwards.
 class LevelSetSurface final : public SignedDistance {
  public:
-  /// Cost: O(bricks of the box + voxels of the band); memory 2.9 kB per brick of the band.
-  explicit LevelSetSurface(const LevelSet& levelSet);
+  /// Cost: O(samples), bricks in parallel; memory 2.9 kB per brick of the band.
+  explicit LevelSetSurface(const DenseLevelSet& levelSet);
 
   double value(const Eigen::Vector3d& x) const override;
   double valueAndGradient(const Eigen::Vector3d& x, Eigen::Vector3d& gradient) const override;
@@ -27,7 +28,7 @@ class LevelSetSurface final : public SignedDistance {
   double band() const override { return band_; }
 
   static constexpr int kLog2Cells = 3;
-  static constexpr int kCells = 1 << kLog2Cells;  ///< cells of a brick along an axis, as in a leaf of OpenVDB
+  static constexpr int kCells = 1 << kLog2Cells;  ///< cells of a brick along an axis
 
   /// Indices of the bricks' nodes lie in [nodesLower, nodesUpper); beyond, phi = band.
   const Eigen::Vector3i& nodesLower() const { return origin_; }
@@ -59,7 +60,7 @@ class LevelSetSurface final : public SignedDistance {
   double inverseVoxelSize_;
   double band_;
   Eigen::AlignedBox3d bounds_;
-  Eigen::Vector3i origin_;            ///< grid index of the first brick's first node, a multiple of 8
+  Eigen::Vector3i origin_;            ///< index of the first brick's first node, one before the raster's
   Eigen::Vector3i count_;             ///< bricks along each axis
   Eigen::Vector3d extent_;            ///< cells along each axis
   std::vector<std::uint32_t> table_;  ///< brick of each place, z fastest

@@ -137,7 +137,8 @@ class TissueRun {
     attempt.plan = plan;
     advance("level set", done_);
     {
-      const LevelSet levelSet = levelSetFromLabels(segmentation_, tissue_, plan.levelSet, &attempt.volumes);
+      const DenseLevelSet levelSet =
+          denseLevelSetFromLabels(segmentation_, tissue_, plan.levelSet, &attempt.volumes);
       attempt.frame = levelSet.frame;
       attempt.surface = std::make_unique<LevelSetSurface>(levelSet);
     }

@@ -16,21 +16,22 @@ constexpr double kTolerance =
 
 using Corners = std::array<Eigen::Vector3d, 4>;
 
-/// A half space a.x <= b.
+/// A half space a.x <= b, widened by kTolerance.
 struct HalfSpace {
-  Eigen::Vector3d normal;
+  Eigen::Vector3d normal;  ///< of any length
   double offset;
+  double tolerance;  ///< kTolerance times the normal's length
 };
 
-/// The four half spaces of a tet of either orientation; empty normals for a flat one.
+/// The four half spaces of a tet of either orientation.
 std::array<HalfSpace, 4> halfSpaces(const Corners& corners) {
   std::array<HalfSpace, 4> sides;
   for (int f = 0; f < 4; ++f) {
     const Eigen::Vector3d& a = corners[kTetFaces[f][0]];
-    Eigen::Vector3d normal =
-        (corners[kTetFaces[f][1]] - a).cross(corners[kTetFaces[f][2]] - a).stableNormalized();
+    Eigen::Vector3d normal = (corners[kTetFaces[f][1]] - a).cross(corners[kTetFaces[f][2]] - a);
     if (normal.dot(corners[f] - a) > 0) normal = -normal;
-    sides[f] = {normal, normal.dot(a) + kTolerance};
+    const double tolerance = kTolerance * normal.norm();
+    sides[f] = {normal, normal.dot(a) + tolerance, tolerance};
   }
   return sides;
 }
@@ -38,20 +39,20 @@ std::array<HalfSpace, 4> halfSpaces(const Corners& corners) {
 bool flat(const Corners& c) { return (c[1] - c[0]).cross(c[2] - c[0]).dot(c[3] - c[0]) == 0; }
 
 void addTet(const Corners& corners, VoxelMask& mask) {
-  if (flat(corners)) return;
-  const auto sides = halfSpaces(corners);
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& corner : corners) box.extend(corner);
   const Eigen::Vector3i lower = (box.min().array() - kTolerance).ceil().cast<int>();
   const Eigen::Vector3i upper = (box.max().array() + kTolerance).floor().cast<int>();
+  if ((lower.array() > upper.array()).any() || flat(corners)) return;
+  const auto sides = halfSpaces(corners);
   for (int z = lower.z(); z <= upper.z(); ++z)
     for (int y = lower.y(); y <= upper.y(); ++y) {
       double first = lower.x(), last = upper.x();
       for (const HalfSpace& side : sides) {
         const double room = side.offset - side.normal.y() * y - side.normal.z() * z;  // >= normal.x * x
-        if (side.normal.x() > kTolerance)
+        if (side.normal.x() > side.tolerance)
           last = std::min(last, std::floor(room / side.normal.x()));
-        else if (side.normal.x() < -kTolerance)
+        else if (side.normal.x() < -side.tolerance)
           first = std::max(first, std::ceil(room / side.normal.x()));
         else if (room < 0)
           first = last + 1;

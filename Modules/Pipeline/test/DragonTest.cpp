@@ -1,4 +1,5 @@
 #include "LevelSetSurface.h"
+#include "sinew/LevelSet/LevelSetFromField.h"
 #include "sinew/LevelSet/LevelSetFromTriangles.h"
 #include "sinew/MeshIO/TriangleFile.h"
 #include "sinew/Mesher/GenerateTetMesh.h"
@@ -34,7 +35,7 @@ TEST(Dragon, IsAheadOfThePapersOwn) {
   LevelSetFromTrianglesReport made;
   const LevelSet levelSet = levelSetFromTriangles({triangles.nodes, triangles.triangles},
                                                   {.spacing = side / 400, .bandVoxels = 7}, &made);
-  const LevelSetSurface surface(levelSet);
+  const LevelSetSurface surface(fieldFromLevelSet(levelSet));
   GenerateTetMeshOptions options;
   options.edgeLength = side / 95;  // about 500 K tets where all of the surface has this size
   options.curvature = 0;

@@ -1,10 +1,9 @@
 #include "LevelSetSurface.h"
 #include "SampledLevelSet.h"
-#include "sinew/LevelSet/LevelSetGrid.h"
 
 #include <gtest/gtest.h>
-#include <openvdb/tools/Interpolation.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -19,46 +18,75 @@ double sphere(const Eigen::Vector3d& x, const Eigen::Vector3d& center, double ra
 
 double torus(const Eigen::Vector3d& x) { return std::hypot(std::hypot(x.x(), x.y()) - 20, x.z()) - 6; }
 
-LevelSet bigSphere(double voxelSize = 1) {
-  return sampled(
-      [](const Eigen::Vector3d& x) {
-        return sphere(x, {-3.3, 7.1, 1.4}, 21);
-      },
-      Eigen::Vector3i(-30, -20, -26), Eigen::Vector3i(25, 35, 30), voxelSize);
+const Eigen::Vector3d kCentre(26.7, 27.1, 27.4);
+
+DenseLevelSet bigSphere(double voxelSize = 1) {
+  return sampled([](const Eigen::Vector3d& x) { return sphere(x, kCentre, 21); }, {0, 0, 0}, {55, 56, 54}, voxelSize);
 }
 
+/// @param phi  in voxels from the middle of the raster
 LevelSetTopology topologyOf(const std::function<double(const Eigen::Vector3d&)>& phi) {
+  const auto moved = [&](const Eigen::Vector3d& x) { return phi(x - Eigen::Vector3d::Constant(30)); };
   return levelSetTopology(
-      LevelSetSurface(sampled(phi, Eigen::Vector3i::Constant(-30), Eigen::Vector3i::Constant(30))));
+      LevelSetSurface(sampled(moved, Eigen::Vector3i::Zero(), Eigen::Vector3i::Constant(60))));
 }
 
-TEST(LevelSetSurface, ValuesAreOpenVdbsTrilinearSamples) {
-  const LevelSet levelSet = bigSphere(0.4);
+/// The sample at an index, +band beyond the raster.
+double sampleAt(const DenseLevelSet& levelSet, int x, int y, int z) {
+  const Eigen::Array3i at(x, y, z);
+  return (at >= 0).all() && (at < levelSet.phi.size.array()).all() ? levelSet.phi(x, y, z) : levelSet.band;
+}
+
+/// sum over the corners of the cell of  prod_a (fraction_a or 1 - fraction_a) phi
+double trilinear(const DenseLevelSet& levelSet, const Eigen::Vector3d& index) {
+  const Eigen::Array3d lower = index.array().floor(), fraction = index.array() - lower;
+  double sum = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Eigen::Array3i bit(corner & 1, corner >> 1 & 1, corner >> 2);
+    const Eigen::Array3i at = lower.cast<int>() + bit;
+    sum += (bit == 1).select(fraction, 1 - fraction).prod() * sampleAt(levelSet, at.x(), at.y(), at.z());
+  }
+  return sum;
+}
+
+TEST(LevelSetSurface, ValuesAreTrilinear) {
+  const DenseLevelSet levelSet = bigSphere(0.5);
   const LevelSetSurface surface(levelSet);
   std::mt19937 random(1);
-  std::uniform_real_distribution<double> uniform(-40, 45);  // also beyond the box on every side
+  std::uniform_real_distribution<double> uniform(-10, 75);  // also beyond the raster on every side
   for (int trial = 0; trial < 20000; ++trial) {
     const Eigen::Vector3d index(uniform(random), uniform(random), uniform(random));
-    const float expected = openvdb::tools::BoxSampler::sample(
-        levelSet.grid->grid->tree(), openvdb::Vec3d(index.x(), index.y(), index.z()));
-    // OpenVDB interpolates in float: a few units in the last place of values up to 1.2.
-    ASSERT_NEAR(surface.value(0.4 * index), expected, 2e-6) << "seed 1: " << index.transpose();
+    // Rounding of positions up to 75, in voxels of 0.5 mm.
+    ASSERT_NEAR(surface.value(0.5 * index), trilinear(levelSet, index), 1e-13)
+        << "seed 1: " << index.transpose();
+  }
+}
+
+TEST(LevelSetSurface, TheFacesOfTheRasterMixWithTheBand) {
+  // Inside everywhere: a cell beside the raster still holds half of it.
+  const LevelSetSurface surface(sampled([](const auto&) { return -1.0; }, {0, 0, 0}, {6, 7, 8}));
+  for (int axis = 0; axis < 3; ++axis) {
+    const Eigen::Vector3d middle(3, 3, 3);
+    for (const double beyond : {-0.5, 6.5 + axis}) {
+      Eigen::Vector3d x = middle;
+      x[axis] = beyond;
+      EXPECT_EQ(surface.value(x), 0.5 * (-1 + 3)) << axis;
+    }
   }
 }
 
 TEST(LevelSetSurface, GridNodesAreExact) {
-  const LevelSet levelSet = bigSphere();
+  const DenseLevelSet levelSet = bigSphere();
   const LevelSetSurface surface(levelSet);
-  for (const Eigen::Vector3i& node :
-       {Eigen::Vector3i(16, 7, 1), Eigen::Vector3i(-24, 8, 0), Eigen::Vector3i(-8, -16, 8)})
-    EXPECT_EQ(surface.value(node.cast<double>()),
-              levelSet.grid->grid->tree().getValue({node.x(), node.y(), node.z()}));
+  for (const Eigen::Vector3i& node : {Eigen::Vector3i(46, 27, 27), Eigen::Vector3i(7, 31, 24),
+                                      Eigen::Vector3i(24, 7, 32), Eigen::Vector3i(55, 56, 54)})
+    EXPECT_EQ(surface.value(node.cast<double>()), levelSet.phi(node.x(), node.y(), node.z()));
 }
 
 TEST(LevelSetSurface, TheGradientIsThatOfTheInterpolant) {
   const LevelSetSurface surface(bigSphere(0.5));
   std::mt19937 random(2);
-  std::uniform_real_distribution<double> uniform(-15, 15);
+  std::uniform_real_distribution<double> uniform(-1, 29);
   const double step = 1e-4;
   for (int trial = 0; trial < 5000; ++trial) {
     const Eigen::Vector3d x(uniform(random), uniform(random), uniform(random));
@@ -78,7 +106,7 @@ TEST(LevelSetSurface, TheGradientIsThatOfTheInterpolant) {
 TEST(LevelSetSurface, IsFlatFarFromTheSurface) {
   const LevelSetSurface surface(bigSphere(0.5));
   Eigen::Vector3d gradient;
-  EXPECT_EQ(surface.valueAndGradient({-1.65, 3.55, 0.7}, gradient), -1.5);
+  EXPECT_EQ(surface.valueAndGradient(0.5 * kCentre, gradient), -1.5);
   EXPECT_EQ(gradient, Eigen::Vector3d::Zero());
   EXPECT_EQ(surface.valueAndGradient({1e9, 0, 0}, gradient), 1.5);
   EXPECT_EQ(gradient, Eigen::Vector3d::Zero());
@@ -87,8 +115,8 @@ TEST(LevelSetSurface, IsFlatFarFromTheSurface) {
 
 TEST(LevelSetSurface, BoundsHoldTheShape) {
   const LevelSetSurface surface(bigSphere(0.5));
-  EXPECT_EQ(surface.bounds().min(), Eigen::Vector3d(-15, -10, -13));
-  EXPECT_EQ(surface.bounds().max(), Eigen::Vector3d(12.5, 17.5, 15));
+  EXPECT_EQ(surface.bounds().min(), Eigen::Vector3d::Zero());
+  EXPECT_EQ(surface.bounds().max(), Eigen::Vector3d(27.5, 28, 27));
   EXPECT_EQ(surface.resolution(), 0.5);
   EXPECT_EQ(surface.band(), 1.5);
 }

@@ -1,33 +1,23 @@
 #include "SampledLevelSet.h"
 
-#include "sinew/LevelSet/LevelSetGrid.h"
-
-#include <cmath>
-#include <memory>
+#include <algorithm>
 
 namespace sinew::test {
 
-LevelSet sampled(const std::function<double(const Eigen::Vector3d&)>& phi, const Eigen::Vector3i& lower,
-                 const Eigen::Vector3i& upper, double voxelSize) {
-  LevelSet levelSet;
+DenseLevelSet sampled(const std::function<double(const Eigen::Vector3d&)>& phi, const Eigen::Vector3i& lower,
+                      const Eigen::Vector3i& upper, double voxelSize) {
+  DenseLevelSet levelSet;
   levelSet.voxelSize = voxelSize;
   levelSet.band = 3 * voxelSize;
-  levelSet.lower = lower;
-  levelSet.upper = upper;
+  levelSet.frame.translation() = voxelSize * lower.cast<double>();
+  levelSet.phi = DenseField(upper - lower + Eigen::Vector3i::Ones());
   const auto band = static_cast<float>(levelSet.band);
-  auto grid = openvdb::FloatGrid::create(band);
-  auto accessor = grid->getAccessor();
-  for (int x = lower.x(); x <= upper.x(); ++x)
+  for (int z = lower.z(); z <= upper.z(); ++z)
     for (int y = lower.y(); y <= upper.y(); ++y)
-      for (int z = lower.z(); z <= upper.z(); ++z) {
-        const auto value = static_cast<float>(voxelSize * phi({double(x), double(y), double(z)}));
-        if (std::abs(value) < band)
-          accessor.setValue({x, y, z}, value);
-        else
-          accessor.setValueOff({x, y, z}, value < 0 ? -band : band);
+      for (int x = lower.x(); x <= upper.x(); ++x) {
+        const auto value = static_cast<float>(voxelSize * phi(Eigen::Vector3d(x, y, z)));
+        levelSet.phi(x - lower.x(), y - lower.y(), z - lower.z()) = std::clamp(value, -band, band);
       }
-  grid->pruneGrid();
-  levelSet.grid = std::make_shared<LevelSetGrid>(LevelSetGrid{grid});
   return levelSet;
 }
 

@@ -66,13 +66,14 @@ TetMesh cubesWhere(const Distance& phi) {
   return mesh;
 }
 
-LevelSetSurface surfaceOf(const Distance& phi) {
-  return LevelSetSurface(
-      test::sampled(phi, Eigen::Vector3i::Constant(-kReach), Eigen::Vector3i::Constant(kReach), kSample));
+DenseLevelSet levelSetOf(const Distance& phi) {
+  return test::sampled(phi, Eigen::Vector3i::Constant(-kReach), Eigen::Vector3i::Constant(kReach), kSample);
 }
+LevelSetSurface surfaceOf(const Distance& phi) { return LevelSetSurface(levelSetOf(phi)); }
 
 std::vector<TopologyDifference> differences(const Distance& mesh, const Distance& shape) {
-  return topologyDifferences(cubesWhere(mesh), surfaceOf(shape), kFrame);
+  const DenseLevelSet levelSet = levelSetOf(shape);
+  return topologyDifferences(cubesWhere(mesh), LevelSetSurface(levelSet), kFrame * levelSet.frame);
 }
 
 struct Case {

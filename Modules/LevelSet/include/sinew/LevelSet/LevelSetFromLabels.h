@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sinew/LevelSet/DenseLevelSet.h"
 #include "sinew/LevelSet/LevelSet.h"
 #include "sinew/Segmentation/Segmentation.h"
 
@@ -29,15 +30,22 @@ double defaultGridSpacing(const ImageGeometry& geometry);
 /// Turns the voxels of one tissue into a signed distance: crop with a margin of background, in blocks of
 /// voxels where the grid is that much coarser, Gauss with the iso value that keeps the label's volume and
 /// with levels of their own for thin parts, or slice-wise 2-D distances and shape interpolation across thick
-/// slices, resampling to an isotropic grid, second-order narrow-band fast marching, and an offset (below half
-/// a voxel) that makes the volume right. The grid's axes are the rotation nearest to the image's; one is
-/// reversed where the image is left-handed, and the axis across thick slices comes last.
+/// slices, resampling to an isotropic grid, narrow-band fast marching (second order within three samples),
+/// and an offset (below half a voxel) that makes the volume right. The grid's axes are the rotation nearest
+/// to the image's; one is reversed where the image is left-handed, and the axis across thick slices comes
+/// last.
 ///
 /// Pieces of a few voxels that smoothing would wipe out stay as they were drawn; a tissue that would vanish
 /// as a whole is smoothed less.
 /// @throws std::invalid_argument on options out of range or a tissue without voxels.
 /// Cost: O(box of the tissue) plus O(band); memory: one float per sample of the level set's box, and less
 /// than half as much again.
+DenseLevelSet denseLevelSetFromLabels(const Segmentation& segmentation, const Tissue& tissue,
+                                      const LevelSetFromLabelsOptions& options = {},
+                                      LevelSetFromLabelsReport* report = nullptr);
+
+/// The same as a grid of OpenVDB. In an object file of its own: a program that stays with the dense level set
+/// does not load OpenVDB, which would take it longer than a small mesh.
 LevelSet levelSetFromLabels(const Segmentation& segmentation, const Tissue& tissue,
                             const LevelSetFromLabelsOptions& options = {},
                             LevelSetFromLabelsReport* report = nullptr);

@@ -3,12 +3,20 @@
 #include "sinew/Mesher/BccLattice.h"
 
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <functional>
 #include <vector>
 
 namespace sinew {
+
+/// Number of ones. Without an option for a newer processor std::popcount is a call into the compiler's
+/// library.
+constexpr int countOnes(std::uint64_t bits) {
+  bits -= bits >> 1 & 0x5555555555555555U;                                  // in every 2 bits
+  bits = (bits & 0x3333333333333333U) + (bits >> 2 & 0x3333333333333333U);  // in every 4
+  bits = (bits + (bits >> 4)) & 0x0f0f0f0f0f0f0f0fU;                        // in every 8
+  return static_cast<int>(bits * 0x0101010101010101U >> 56);
+}
 
 /// A set of lattice nodes, all levels together, as bits in pages of 8^3 finest cubes (two nodes per cube),
 /// and the rank of each node: its index in the order of pages, then of bits. No hash tables, and no
@@ -33,7 +41,7 @@ class LatticeNodeSet {
     const std::int32_t page = pageOf_[pageIndex(p)];
     const int word = wordIndex(p);
     const std::uint64_t below = pages_[page][word] & ((std::uint64_t{1} << bitIndex(p)) - 1);
-    return ranks_[page][word] + std::popcount(below);
+    return ranks_[page][word] + countOnes(below);
   }
   /// The nodes in the order of their index. Cost: O(box / page + nodes).
   std::vector<Int3> nodes() const;
