@@ -1,8 +1,9 @@
 #include "sinew/Mesher/LatticeMesh.h"
 
-#include <tbb/parallel_for.h>
+#include "Parallel.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace sinew {
 namespace {
@@ -10,12 +11,13 @@ namespace {
 constexpr double kOutsideEdges =
     2;  // a tet whose nodes are all deeper outside than this many edges is dropped
 
+constexpr std::size_t kParts = 4;  // of the tets, for the stars
+constexpr std::size_t kSmall = 1 << 15;
+
 std::vector<double> sampleNodes(const std::vector<Int3>& nodes, const LatticeFrame& frame,
                                 const SignedDistance& phi) {
   std::vector<double> values(nodes.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, nodes.size(), 4096), [&](const auto& range) {
-    for (std::size_t n = range.begin(); n < range.end(); ++n) values[n] = phi.value(frame.position(nodes[n]));
-  });
+  forEach(nodes.size(), [&](std::size_t n) { values[n] = phi.value(frame.position(nodes[n])); });
   return values;
 }
 
@@ -48,31 +50,34 @@ std::vector<Tet> collectLeaves(const RedGreenLattice& lattice, const LatticePlan
       }
     }
   });
-  std::vector<Tet> tets;
-  std::size_t count = 0;
-  for (const auto& layer : layers) count += layer.size();
-  tets.reserve(count);
-  for (auto& layer : layers) {
-    tets.insert(tets.end(), layer.begin(), layer.end());
-    std::vector<Tet>().swap(layer);
-  }
-  return tets;
+  return concatenated(std::move(layers));
 }
 
 }  // namespace
 
 NodeStars nodeStars(std::size_t nodes, const std::vector<Tet>& tets) {
+  // Parts of the tets count and write on their own; in a row the tets of an earlier part come first.
+  const std::size_t parts = tets.size() < kSmall ? 1 : kParts;
+  const auto forEachPart = [&](const auto& f) {
+    tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t part) {
+      const std::size_t end = (part + 1) * tets.size() / parts;
+      for (std::size_t t = part * tets.size() / parts; t < end; ++t)
+        for (const std::int32_t v : tets[t]) f(part, v, static_cast<std::int32_t>(t));
+    });
+  };
+  std::vector<std::vector<std::int32_t>> next(parts);
+  for (auto& counts : next) counts.assign(nodes, 0);
+  forEachPart([&](std::size_t part, std::int32_t v, std::int32_t) { ++next[part][v]; });
   NodeStars stars;
-  stars.offsets.assign(nodes + 1, 0);
-  for (const Tet& tet : tets) {
-    for (const std::int32_t v : tet) ++stars.offsets[v + 1];
+  stars.offsets.resize(nodes + 1);
+  std::int32_t begin = 0;
+  for (std::size_t n = 0; n < nodes; ++n) {
+    stars.offsets[n] = begin;
+    for (auto& counts : next) begin += std::exchange(counts[n], begin);
   }
-  for (std::size_t n = 0; n < nodes; ++n) stars.offsets[n + 1] += stars.offsets[n];
+  stars.offsets[nodes] = begin;
   stars.tets.resize(4 * tets.size());
-  std::vector<std::int32_t> next(stars.offsets.begin(), stars.offsets.end() - 1);
-  for (std::size_t t = 0; t < tets.size(); ++t) {
-    for (const std::int32_t v : tets[t]) stars.tets[next[v]++] = static_cast<std::int32_t>(t);
-  }
+  forEachPart([&](std::size_t part, std::int32_t v, std::int32_t t) { stars.tets[next[part][v]++] = t; });
   return stars;
 }
 
@@ -82,19 +87,26 @@ LatticeMesh latticeMesh(const RedGreenLattice& lattice, const LatticePlan& plan,
   LatticeMesh mesh;
   mesh.tets = collectLeaves(lattice, plan, values);
 
-  std::vector<std::int32_t> compact(nodes.size(), -1);
-  for (const Tet& tet : mesh.tets) {
-    for (const std::int32_t v : tet) compact[v] = 0;
-  }
+  std::vector<std::uint8_t> used(nodes.size(), 0);
+  forEach(mesh.tets.size(), [&](std::size_t t) {
+    for (const std::int32_t v : mesh.tets[t]) setFlag(used[v]);
+  });
+  std::vector<std::int32_t> compact(nodes.size());
+  std::int32_t count = 0;
   for (std::size_t n = 0; n < nodes.size(); ++n) {
-    if (compact[n] < 0) continue;
-    compact[n] = static_cast<std::int32_t>(mesh.positions.size());
-    mesh.positions.push_back(plan.frame.position(nodes[n]));
-    mesh.phi.push_back(values[n]);
+    compact[n] = count;
+    count += used[n];
   }
-  for (Tet& tet : mesh.tets) {
-    for (std::int32_t& v : tet) v = compact[v];
-  }
+  mesh.positions.resize(count);
+  mesh.phi.resize(count);
+  forEach(nodes.size(), [&](std::size_t n) {
+    if (used[n] == 0) return;
+    mesh.positions[compact[n]] = plan.frame.position(nodes[n]);
+    mesh.phi[compact[n]] = values[n];
+  });
+  forEach(mesh.tets.size(), [&](std::size_t t) {
+    for (std::int32_t& v : mesh.tets[t]) v = compact[v];
+  });
   return mesh;
 }
 

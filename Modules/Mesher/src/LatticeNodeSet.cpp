@@ -1,5 +1,7 @@
 #include "sinew/Mesher/LatticeNodeSet.h"
 
+#include <tbb/parallel_for.h>
+
 #include <bit>
 #include <stdexcept>
 
@@ -16,16 +18,16 @@ bool LatticeNodeSet::insert(Int3 p) {
     if (p[axis] < 0 || p[axis] >= 2 * cells_[axis])
       throw std::logic_error("LatticeNodeSet::insert: outside of the box");
   }
-  std::int32_t& page = pageOf_[pageIndex(p)];
-  if (page < 0) {
-    page = static_cast<std::int32_t>(pages_.size());
+  addPages({pageIndex(p)});
+  return insertConcurrently(p);
+}
+
+void LatticeNodeSet::addPages(const std::vector<std::size_t>& indices) {
+  for (const std::size_t index : indices) {
+    if (hasPage(index)) continue;
+    pageOf_[index] = static_cast<std::int32_t>(pages_.size());
     pages_.emplace_back().fill(0);
   }
-  std::uint64_t& word = pages_[page][wordIndex(p)];
-  const std::uint64_t bit = std::uint64_t{1} << bitIndex(p);
-  if ((word & bit) != 0) return false;
-  word |= bit;
-  return true;
 }
 
 void LatticeNodeSet::rank() {
@@ -42,24 +44,24 @@ void LatticeNodeSet::rank() {
 }
 
 std::vector<Int3> LatticeNodeSet::nodes() const {
-  std::vector<Int3> list;
-  list.reserve(size_);
-  for (int z = 0; z < pageCounts_.z; ++z) {
+  std::vector<Int3> list(size_);
+  tbb::parallel_for(0, pageCounts_.z, [&](int z) {
     for (int y = 0; y < pageCounts_.y; ++y) {
       for (int x = 0; x < pageCounts_.x; ++x) {
         const std::int32_t page = pageOf_[pageIndex({16 * x, 16 * y, 16 * z})];
         if (page < 0) continue;
+        std::int32_t next = ranks_[page][0];
         for (int w = 0; w < kWords; ++w) {
           for (std::uint64_t bits = pages_[page][w]; bits != 0; bits &= bits - 1) {
             const int b = std::countr_zero(bits);
             const int sublattice = b & 1;
-            list.push_back({16 * x + (b & 15), 16 * y + 8 * (w & 1) + 2 * (b >> 4) + sublattice,
-                            16 * z + 2 * (w >> 1) + sublattice});
+            list[next++] = {16 * x + (b & 15), 16 * y + 8 * (w & 1) + 2 * (b >> 4) + sublattice,
+                            16 * z + 2 * (w >> 1) + sublattice};
           }
         }
       }
     }
-  }
+  });
   return list;
 }
 

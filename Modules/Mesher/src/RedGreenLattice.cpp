@@ -1,8 +1,16 @@
 #include "sinew/Mesher/RedGreenLattice.h"
 
+#include "Parallel.h"
+
 #include <stdexcept>
+#include <utility>
 
 namespace sinew {
+namespace {
+
+constexpr std::size_t kGrain = 512;  // tets or midpoints per task
+
+}  // namespace
 
 RedGreenLattice::RedGreenLattice(Int3 coarseCells, int levels)
     : coarseCells_(coarseCells),
@@ -37,16 +45,40 @@ unsigned RedGreenLattice::bisectedEdges(int level, const BccTet& tet) const {
   return mask;
 }
 
-void RedGreenLattice::bisect(int level, const BccTet& tet, unsigned edges) {
-  const int shift = levels_ - 2 - level;
-  const std::array<Int3, 4> nodes = bccNodes(tet);
-  for (int e = 0; e < 6; ++e) {
-    if ((edges >> e & 1U) == 0) continue;
-    const Int3 q = nodes[kTetEdges[e][0]] + nodes[kTetEdges[e][1]];
-    if (!nodes_.insert(q << shift)) continue;
-    requireInside(q << shift);
-    fresh_[level].push_back(q);
-  }
+template <class BisectionAt>
+void RedGreenLattice::bisect(std::size_t count, const BisectionAt& bisectionAt) {
+  // Calls f(level, midpoint in half cubes of the next level, the same in those of the finest).
+  const auto forEachMidpoint = [&](const Bisection& b, const auto& f) {
+    const std::array<Int3, 4> nodes = bccNodes(b.at.tet);
+    for (int e = 0; e < 6; ++e) {
+      if ((b.edges >> e & 1U) == 0) continue;
+      const Int3 q = nodes[kTetEdges[e][0]] + nodes[kTetEdges[e][1]];
+      f(b.at.level, q, q << (levels_ - 2 - b.at.level));
+    }
+  };
+  nodes_.addPages(collect<std::size_t>(
+      count,
+      [&](std::size_t i, std::vector<std::size_t>& pages) {
+        forEachMidpoint(bisectionAt(i), [&](int, Int3, Int3 p) {
+          requireInside(p);
+          const std::size_t page = nodes_.pageIndex(p);
+          if (!nodes_.hasPage(page) && (pages.empty() || pages.back() != page)) pages.push_back(page);
+        });
+      },
+      kGrain));
+  const auto fresh = collect<std::pair<int, Int3>>(
+      count,
+      [&](std::size_t i, auto& found) {
+        forEachMidpoint(bisectionAt(i), [&](int level, Int3 q, Int3 p) {
+          if (nodes_.insertConcurrently(p)) found.emplace_back(level, q);
+        });
+      },
+      kGrain);
+  for (const auto& [level, q] : fresh) fresh_[level].push_back(q);
+}
+
+void RedGreenLattice::refine(const std::vector<LevelTet>& tets) {
+  bisect(tets.size(), [&](std::size_t i) { return Bisection{tets[i], kAllEdges}; });
 }
 
 void RedGreenLattice::requireInside(Int3 p) const {
@@ -58,17 +90,27 @@ void RedGreenLattice::requireInside(Int3 p) const {
   }
 }
 
+void RedGreenLattice::close(int level, Int3 midpoint, std::vector<Bisection>& wanted) const {
+  for (const BccTet& tet : tetsAroundEdge(midpoint)) {
+    const unsigned mask = bisectedEdges(level, tet);
+    const unsigned missing = kClosedPatterns[mask] & ~mask;
+    if (missing != 0) wanted.push_back({{level, tet}, missing});
+    if (level == 0) continue;
+    const LevelTet parent{level - 1, redParent(tet)};
+    const unsigned whole = kAllEdges & ~bisectedEdges(parent.level, parent.tet);
+    if (whole != 0) wanted.push_back({parent, whole});
+  }
+}
+
 void RedGreenLattice::close() {
   for (int level = levels_ - 2; level >= 0; --level) {
-    std::vector<Int3>& fresh = fresh_[level];
-    for (std::size_t n = 0; n < fresh.size(); ++n) {  // grows while it runs
-      for (const BccTet& tet : tetsAroundEdge(fresh[n])) {
-        const unsigned mask = bisectedEdges(level, tet);
-        bisect(level, tet, kClosedPatterns[mask] & ~mask);
-        if (level > 0) bisect(level - 1, redParent(tet), kAllEdges);
-      }
+    while (!fresh_[level].empty()) {
+      // Which midpoints are fresh does not depend on the threads, only their order does.
+      const std::vector<Int3> fresh = std::exchange(fresh_[level], {});
+      const auto wanted = collect<Bisection>(
+          fresh.size(), [&](std::size_t n, auto& found) { close(level, fresh[n], found); }, kGrain);
+      bisect(wanted.size(), [&](std::size_t i) { return wanted[i]; });
     }
-    fresh.clear();
   }
   nodes_.rank();
 }

@@ -1,5 +1,6 @@
 #include "sinew/Mesher/Sizing.h"
 
+#include "Parallel.h"
 #include "sinew/Mesher/Curvature.h"
 
 #include <tbb/parallel_for.h>
@@ -83,14 +84,13 @@ class NearCubes {
   void fillCoarser(int level) {
     const Int3 n = cells(level - 1);
     flags_[level - 1].assign(static_cast<std::size_t>(n.x) * n.y * n.z, 0);
-    const Int3 fine = cells(level);
-    for (int z = 0; z < fine.z; ++z) {
-      for (int y = 0; y < fine.y; ++y) {
-        for (int x = 0; x < fine.x; ++x) {
-          if (at(level, {x, y, z})) flags_[level - 1][index(level - 1, {x / 2, y / 2, z / 2})] = 1;
-        }
+    tbb::parallel_for(0, n.z, [&](int z) {
+      for (int y = 0; y < 2 * n.y; ++y) {
+        for (int x = 0; x < 2 * n.x; ++x)
+          flags_[level - 1][index(level - 1, {x / 2, y / 2, z})] |=
+              flags_[level][index(level, {x, y, 2 * z})] | flags_[level][index(level, {x, y, 2 * z + 1})];
       }
-    }
+    });
   }
 
   const LatticePlan& plan_;
@@ -100,9 +100,10 @@ class NearCubes {
 
 /// What a pass over the lattice asks for.
 struct Wishes {
-  std::vector<std::pair<int, BccTet>> tets;  ///< to be refined, coarse to fine along every branch
-  std::int64_t surface = 0;                  ///< tets of the surface level that the surface passes
-  std::int64_t finer = 0;                    ///< those of them that the rules want finer
+  std::vector<LevelTet> tets;  ///< to be refined, coarse to fine along every branch
+  int finest = 0;              ///< level that this takes
+  std::int64_t surface = 0;    ///< tets of the surface level that the surface passes
+  std::int64_t finer = 0;      ///< those of them that the rules want finer
   bool mostFiner() const { return static_cast<double>(finer) > kWholesale * static_cast<double>(surface); }
 };
 
@@ -119,7 +120,8 @@ class Refiner {
   /// Notes the tets to be refined below a tet, itself included.
   void collect(int level, const BccTet& tet, Wishes& wishes) const {
     if (level + 1 >= plan_.levels || !wants(level, tet, wishes)) return;
-    wishes.tets.emplace_back(level, tet);
+    wishes.tets.push_back({level, tet});
+    wishes.finest = std::max(wishes.finest, level + 1);
     for (const BccTet& child : redChildren(tet)) collect(level + 1, child, wishes);
   }
 
@@ -248,11 +250,14 @@ Wishes collectWishes(const LatticePlan& plan, const SignedDistance& phi, const S
     }
   });
   Wishes all;
-  for (const Wishes& layer : layers) {
-    all.tets.insert(all.tets.end(), layer.tets.begin(), layer.tets.end());
+  std::vector<std::vector<LevelTet>> tets;
+  for (Wishes& layer : layers) {
+    tets.push_back(std::move(layer.tets));
+    all.finest = std::max(all.finest, layer.finest);
     all.surface += layer.surface;
     all.finer += layer.finer;
   }
+  all.tets = concatenated(std::move(tets));
   return all;
 }
 
@@ -265,13 +270,9 @@ int refineToSize(RedGreenLattice& lattice, LatticePlan& plan, const SignedDistan
     ++plan.surfaceLevel;
     wishes = collectWishes(plan, phi, options);
   }
-  int finest = 0;
-  for (const auto& [level, tet] : wishes.tets) {
-    lattice.refine(level, tet);
-    finest = std::max(finest, level + 1);
-  }
+  lattice.refine(wishes.tets);
   lattice.close();
-  return finest;
+  return wishes.finest;
 }
 
 }  // namespace sinew

@@ -3,6 +3,7 @@
 #include "sinew/Mesher/BccLattice.h"
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -33,6 +34,21 @@ class LatticeNodeSet {
   /// @return true when p was not yet in the set. @throws std::logic_error outside of the box.
   bool insert(Int3 p);
 
+  /// A large number of nodes, in parallel: first the pages of all of them, then the nodes, from any thread.
+  /// Points must lie in the box.
+  std::size_t pageIndex(Int3 p) const {
+    return (static_cast<std::size_t>(p.z >> 4) * pageCounts_.y + (p.y >> 4)) * pageCounts_.x + (p.x >> 4);
+  }
+  bool hasPage(std::size_t index) const { return pageOf_[index] >= 0; }
+  void addPages(const std::vector<std::size_t>& indices);
+  /// @return true when p was not yet in the set, for one of the threads that insert it
+  bool insertConcurrently(Int3 p) {
+    const std::atomic_ref word(pages_[pageOf_[pageIndex(p)]][wordIndex(p)]);
+    const std::uint64_t bit = std::uint64_t{1} << bitIndex(p);
+    if ((word.load(std::memory_order_relaxed) & bit) != 0) return false;
+    return (word.fetch_or(bit, std::memory_order_relaxed) & bit) == 0;
+  }
+
   /// Numbers the nodes; call once all are in.
   void rank();
   std::int32_t size() const { return size_; }
@@ -43,7 +59,7 @@ class LatticeNodeSet {
     const std::uint64_t below = pages_[page][word] & ((std::uint64_t{1} << bitIndex(p)) - 1);
     return ranks_[page][word] + countOnes(below);
   }
-  /// The nodes in the order of their index. Cost: O(box / page + nodes).
+  /// The nodes in the order of their index. Cost: O(box / page + nodes), parallel.
   std::vector<Int3> nodes() const;
 
  private:
@@ -52,9 +68,6 @@ class LatticeNodeSet {
 
   // Half cube p: page p >> 4, cube (p >> 1) & 7 inside, sublattice p & 1; bit (z * 8 + y) * 16 + 2 x +
   // sublattice.
-  std::size_t pageIndex(Int3 p) const {
-    return (static_cast<std::size_t>(p.z >> 4) * pageCounts_.y + (p.y >> 4)) * pageCounts_.x + (p.x >> 4);
-  }
   static int wordIndex(Int3 p) { return ((p.z >> 1 & 7) << 1) | (p.y >> 3 & 1); }
   static int bitIndex(Int3 p) { return ((p.y >> 1 & 3) << 4) | (p.x & 15); }
 

@@ -5,6 +5,7 @@
 #include "sinew/Mesher/RedGreen.h"
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 namespace sinew {
@@ -14,6 +15,12 @@ struct LatticeTet {
   std::array<Int3, 4> nodes;  ///< half cubes of the finest level, positive order
   int level;                  ///< of the red tet, or of the green child's red parent
   bool green;
+};
+
+/// A red tet of a level.
+struct LevelTet {
+  int level;
+  BccTet tet;
 };
 
 /// The red-green hierarchy on a block of BCC cubes (Teran et al. 2005, section 4).
@@ -32,13 +39,16 @@ class RedGreenLattice {
   Int3 coarseCells() const { return coarseCells_; }
 
   /// Asks for the red refinement of a tet; its ancestors follow in close().
-  void refine(int level, const BccTet& tet) { bisect(level, tet, kAllEdges); }
+  void refine(int level, const BccTet& tet) { refine({{level, tet}}); }
+  /// Many at once, in parallel.
+  void refine(const std::vector<LevelTet>& tets);
   bool isRefined(int level, const BccTet& tet) const { return bisectedEdges(level, tet) == kAllEdges; }
   /// The 6-bit set of bisected edges of a tet of a level below the finest.
   unsigned bisectedEdges(int level, const BccTet& tet) const;
 
   /// Restores the hierarchy: only allowed patterns, all tets around a bisected edge exist, and numbers the
-  /// nodes. Cost: O(new nodes). @throws std::logic_error when the refinement reaches the border of the block.
+  /// nodes. Cost: O(new nodes), parallel; the same for any number of threads. @throws std::logic_error when
+  /// the refinement reaches the border of the block.
   void close();
 
   const LatticeNodeSet& nodes() const { return nodes_; }
@@ -83,8 +93,16 @@ class RedGreenLattice {
     }
   }
 
-  /// Puts the midpoints of the given edges into the set.
-  void bisect(int level, const BccTet& tet, unsigned edges);
+  /// Edges of a tet, as a bit set, whose midpoints shall be in the set.
+  struct Bisection {
+    LevelTet at;
+    unsigned edges;
+  };
+  /// Puts the midpoints of bisectionAt(i), i < count, into the set and what is new among them into fresh_.
+  template <class BisectionAt>
+  void bisect(std::size_t count, const BisectionAt& bisectionAt);
+  /// What the closure asks for at the tets around a midpoint of a level.
+  void close(int level, Int3 midpoint, std::vector<Bisection>& wanted) const;
   void insertCoarseNodes();
   /// The outermost cubes stay whole, so that every tet around a bisected edge lies in the block.
   void requireInside(Int3 p) const;
