@@ -1,8 +1,11 @@
 #include "ActiveNodes.h"
 
+#include "Parallel.h"
+#include "sinew/Mesher/LatticeMesh.h"
+
 #include <algorithm>
+#include <array>
 #include <bit>
-#include <numeric>
 
 namespace sinew {
 namespace {
@@ -11,36 +14,19 @@ constexpr int kRings = 2;  // rings of nodes below the surface that take part
 constexpr double kGreenShape =
     1.2;  // F of a tet above this (BCC 1.157): its nodes take part wherever they lie
 
-void buildStars(const TetMesh& mesh, ActiveNodes& active) {
-  active.offsets.assign(active.size() + 1, 0);
-  for (const Tet& tet : mesh.tets) {
-    for (const std::int32_t v : tet) {
-      if (active.indexOf[v] >= 0) ++active.offsets[active.indexOf[v] + 1];
-    }
-  }
-  for (std::size_t n = 0; n < active.size(); ++n) active.offsets[n + 1] += active.offsets[n];
-  active.faces.resize(active.offsets.back());
-  std::vector<std::int32_t> next(active.offsets.begin(), active.offsets.end() - 1);
-  for (const Tet& tet : mesh.tets) {
-    for (int f = 0; f < 4; ++f) {
-      const std::int32_t index = active.indexOf[tet[f]];
-      if (index < 0) continue;
-      const auto& [a, b, c] = kTetFaces[f];
-      active.faces[next[index]++] = {tet[a], tet[c], tet[b]};
-    }
-  }
-}
+/// The colour of nodes that do not move.
+constexpr std::uint8_t kNone = 255;
 
 /// Greedy, in the order of the nodes.
-std::vector<std::uint8_t> colorNodes(const ActiveNodes& active) {
-  constexpr std::uint8_t kNone = 255;
-  std::vector<std::uint8_t> color(active.size(), kNone);
-  for (std::size_t n = 0; n < active.size(); ++n) {
+/// @return color[n] of the mesh nodes
+std::vector<std::uint8_t> colorNodes(const TetMesh& mesh, const NodeStars& stars,
+                                     const std::vector<std::int32_t>& nodes) {
+  std::vector<std::uint8_t> color(mesh.nodes.size(), kNone);
+  for (const std::int32_t n : nodes) {
     std::uint64_t used = 0;
-    for (const StarFaceNodes& face : active.star(static_cast<std::int32_t>(n))) {
-      for (const std::int32_t v : face) {
-        const std::int32_t other = active.indexOf[v];
-        if (other >= 0 && color[other] != kNone) used |= std::uint64_t{1} << color[other];
+    for (const std::int32_t t : stars.of(n)) {
+      for (const std::int32_t v : mesh.tets[t]) {
+        if (color[v] != kNone) used |= std::uint64_t{1} << color[v];
       }
     }
     color[n] = static_cast<std::uint8_t>(std::countr_one(used));
@@ -49,23 +35,32 @@ std::vector<std::uint8_t> colorNodes(const ActiveNodes& active) {
 }
 
 /// Nodes of one color side by side, and so their stars: a sweep reads memory from front to back.
-void sortByColor(ActiveNodes& active, const std::vector<std::uint8_t>& color) {
-  std::vector<std::int32_t> order(active.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, {}, [&](std::int32_t n) { return color[n]; });
-  ActiveNodes sorted;
-  sorted.indexOf = std::move(active.indexOf);
-  sorted.offsets = {0};
-  sorted.faces.reserve(active.faces.size());
-  for (const std::int32_t n : order) {
-    if (sorted.colors.size() == color[n]) sorted.colors.push_back({sorted.nodes.size(), sorted.nodes.size()});
-    sorted.indexOf[active.nodes[n]] = static_cast<std::int32_t>(sorted.nodes.size());
-    sorted.nodes.push_back(active.nodes[n]);
-    sorted.faces.insert(sorted.faces.end(), active.star(n).begin(), active.star(n).end());
-    sorted.offsets.push_back(static_cast<std::int32_t>(sorted.faces.size()));
-    sorted.colors.back().end = sorted.nodes.size();
-  }
-  active = std::move(sorted);
+void sortByColor(const std::vector<std::uint8_t>& color, ActiveNodes& active) {
+  std::array<std::size_t, kNone> count{};
+  for (const std::int32_t n : active.nodes) ++count[color[n]];
+  for (std::size_t begin = 0; begin < active.size(); begin = active.colors.back().end)
+    active.colors.push_back({begin, begin + count[active.colors.size()]});
+  std::array<std::size_t, kNone> next{};
+  for (std::size_t c = 0; c < active.colors.size(); ++c) next[c] = active.colors[c].begin;
+  std::vector<std::int32_t> sorted(active.size());
+  for (const std::int32_t n : active.nodes) sorted[next[color[n]]++] = n;
+  active.nodes = std::move(sorted);
+}
+
+void buildStars(const TetMesh& mesh, const NodeStars& stars, ActiveNodes& active) {
+  active.offsets.assign(active.size() + 1, 0);
+  for (std::size_t n = 0; n < active.size(); ++n)
+    active.offsets[n + 1] = active.offsets[n] + static_cast<std::int32_t>(stars.of(active.nodes[n]).size());
+  active.faces.resize(active.offsets.back());
+  forEach(active.size(), [&](std::size_t n) {
+    std::int32_t next = active.offsets[n];
+    for (const std::int32_t t : stars.of(active.nodes[n])) {
+      const Tet& tet = mesh.tets[t];
+      const auto f = std::ranges::find(tet, active.nodes[n]) - tet.begin();
+      const auto& [a, b, c] = kTetFaces[f];
+      active.faces[next++] = {tet[a], tet[c], tet[b]};
+    }
+  });
 }
 
 }  // namespace
@@ -73,10 +68,12 @@ void sortByColor(ActiveNodes& active, const std::vector<std::uint8_t>& color) {
 void growRings(const TetMesh& mesh, int rings, std::vector<std::uint8_t>& flags) {
   for (int ring = 0; ring < rings; ++ring) {
     std::vector<std::uint8_t> grown = flags;
-    for (const Tet& tet : mesh.tets) {
-      if ((flags[tet[0]] | flags[tet[1]] | flags[tet[2]] | flags[tet[3]]) == 0) continue;
-      for (const std::int32_t v : tet) grown[v] = 1;
-    }
+    forEach(mesh.tets.size(), [&](std::size_t t) {
+      const Tet& tet = mesh.tets[t];
+      const int flagged = flags[tet[0]] + flags[tet[1]] + flags[tet[2]] + flags[tet[3]];
+      if (flagged == 0 || flagged == 4) return;
+      for (const std::int32_t v : tet) setFlag(grown[v]);
+    });
     flags.swap(grown);
   }
 }
@@ -86,23 +83,26 @@ std::vector<std::uint8_t> movableNodes(const TetMesh& mesh) {
   for (std::size_t n = 0; n < movable.size(); ++n) movable[n] = mesh.kinds[n] == NodeKind::Boundary;
   growRings(mesh, kRings, movable);
   const auto& x = mesh.nodes;
-  for (const Tet& tet : mesh.tets) {
-    if (shapeMeasure(x[tet[3]], x[tet[0]], x[tet[1]], x[tet[2]]) <= kGreenShape) continue;
-    for (const std::int32_t v : tet) movable[v] = 1;
-  }
+  forEach(mesh.tets.size(), [&](std::size_t t) {
+    const Tet& tet = mesh.tets[t];
+    if (std::ranges::all_of(tet, [&](std::int32_t v) { return isSet(movable[v]); })) return;
+    if (shapeMeasure(x[tet[3]], x[tet[0]], x[tet[1]], x[tet[2]]) <= kGreenShape) return;
+    for (const std::int32_t v : tet) setFlag(movable[v]);
+  });
   return movable;
 }
 
 ActiveNodes activeNodes(const TetMesh& mesh, const std::vector<std::uint8_t>& movable) {
+  const NodeStars stars = nodeStars(mesh.nodes.size(), mesh.tets);
   ActiveNodes active;
+  active.nodes = collect<std::int32_t>(movable.size(), [&](std::size_t n, auto& nodes) {
+    if (movable[n] != 0) nodes.push_back(static_cast<std::int32_t>(n));
+  });
+  sortByColor(colorNodes(mesh, stars, active.nodes), active);
   active.indexOf.assign(mesh.nodes.size(), -1);
-  for (std::size_t n = 0; n < movable.size(); ++n) {
-    if (movable[n] == 0) continue;
-    active.indexOf[n] = static_cast<std::int32_t>(active.nodes.size());
-    active.nodes.push_back(static_cast<std::int32_t>(n));
-  }
-  buildStars(mesh, active);
-  sortByColor(active, colorNodes(active));
+  forEach(active.size(),
+          [&](std::size_t n) { active.indexOf[active.nodes[n]] = static_cast<std::int32_t>(n); });
+  buildStars(mesh, stars, active);
   return active;
 }
 

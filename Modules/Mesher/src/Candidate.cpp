@@ -1,7 +1,9 @@
 #include "sinew/Mesher/Candidate.h"
 
 #include "KeptSet.h"
+#include "Parallel.h"
 
+#include <algorithm>
 #include <iterator>
 #include <numeric>
 #include <utility>
@@ -9,24 +11,25 @@
 namespace sinew {
 namespace {
 
-std::vector<std::uint8_t> envelopeInteriorNodes(const LatticeMesh& mesh, double minInsideFraction) {
+std::vector<std::uint8_t> envelopeInteriorNodes(const LatticeMesh& mesh, const NodeStars& stars,
+                                                double minInsideFraction) {
   const double ratio = (1 - minInsideFraction) / minInsideFraction;
   std::vector<std::uint8_t> enveloped(mesh.phi.size());
-  for (std::size_t n = 0; n < mesh.phi.size(); ++n) enveloped[n] = mesh.phi[n] < 0;
-  for (const Tet& tet : mesh.tets) {
-    for (const auto& [a, b] : kTetEdges) {
-      const std::int32_t i = tet[a], j = tet[b];
-      if (mesh.phi[j] > -ratio * mesh.phi[i]) enveloped[i] = 0;
-      if (mesh.phi[i] > -ratio * mesh.phi[j]) enveloped[j] = 0;
-    }
-  }
+  forEach(enveloped.size(), [&](std::size_t n) {
+    const double phi = mesh.phi[n];
+    enveloped[n] =
+        phi < 0 && std::ranges::all_of(stars.of(static_cast<std::int32_t>(n)), [&](std::int32_t t) {
+          return std::ranges::all_of(mesh.tets[t],
+                                     [&](std::int32_t v) { return mesh.phi[v] <= -ratio * phi; });
+        });
+  });
   return enveloped;
 }
 
 }  // namespace
 
 Candidate selectCandidate(const LatticeMesh& mesh, const NodeStars& stars, const CandidateOptions& options) {
-  KeptSet set(mesh, stars, envelopeInteriorNodes(mesh, options.minInsideFraction));
+  KeptSet set(mesh, stars, envelopeInteriorNodes(mesh, stars, options.minInsideFraction));
   std::vector<std::int32_t> all(mesh.phi.size());
   std::iota(all.begin(), all.end(), 0);
   const Enveloped repair = envelopeViolations(set, all, options.maxPasses);
@@ -45,33 +48,29 @@ Candidate selectCandidate(const LatticeMesh& mesh, const NodeStars& stars, const
 
 TetMesh extractMesh(const LatticeMesh& mesh, const std::vector<std::uint8_t>& keep, std::int32_t label,
                     std::vector<std::int32_t>* latticeNodes) {
+  std::vector<std::uint8_t> kept(mesh.positions.size(), 0), partial(mesh.positions.size(), 0);
+  forEach(mesh.tets.size(), [&](std::size_t t) {
+    for (const std::int32_t v : mesh.tets[t]) setFlag((keep[t] != 0 ? kept : partial)[v]);
+  });
+  const std::vector<std::int32_t> nodes = collect<std::int32_t>(kept.size(), [&](std::size_t n, auto& found) {
+    if (kept[n] != 0) found.push_back(static_cast<std::int32_t>(n));
+  });
   std::vector<std::int32_t> compact(mesh.positions.size(), kNone);
-  std::vector<std::uint8_t> partial(mesh.positions.size(), 0);
   TetMesh result;
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    for (const std::int32_t v : mesh.tets[t]) {
-      if (keep[t]) {
-        compact[v] = 0;
-      } else {
-        partial[v] = 1;
-      }
-    }
-  }
-  if (latticeNodes != nullptr) latticeNodes->clear();
-  for (std::size_t n = 0; n < mesh.positions.size(); ++n) {
-    if (compact[n] == kNone) continue;
-    compact[n] = static_cast<std::int32_t>(result.nodes.size());
-    result.nodes.push_back(mesh.positions[n]);
-    result.kinds.push_back(partial[n] ? NodeKind::Boundary : NodeKind::Interior);
-    if (latticeNodes != nullptr) latticeNodes->push_back(static_cast<std::int32_t>(n));
-  }
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    if (!keep[t]) continue;
-    Tet tet = mesh.tets[t];
-    for (std::int32_t& v : tet) v = compact[v];
-    result.tets.push_back(tet);
-  }
+  result.nodes.resize(nodes.size());
+  result.kinds.resize(nodes.size());
+  forEach(nodes.size(), [&](std::size_t n) {
+    compact[nodes[n]] = static_cast<std::int32_t>(n);
+    result.nodes[n] = mesh.positions[nodes[n]];
+    result.kinds[n] = partial[nodes[n]] != 0 ? NodeKind::Boundary : NodeKind::Interior;
+  });
+  result.tets = collect<Tet>(mesh.tets.size(), [&](std::size_t t, auto& tets) {
+    if (keep[t] == 0) return;
+    const auto& [a, b, c, d] = mesh.tets[t];
+    tets.push_back({compact[a], compact[b], compact[c], compact[d]});
+  });
   result.labels.assign(result.tets.size(), label);
+  if (latticeNodes != nullptr) *latticeNodes = nodes;
   return result;
 }
 

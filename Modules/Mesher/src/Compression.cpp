@@ -3,13 +3,13 @@
 #include "ActiveNodes.h"
 #include "GoalMeasure.h"
 #include "NodeStarEnergy.h"
+#include "Parallel.h"
 #include "SurfaceProjection.h"
 
 #include <Eigen/Dense>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -18,8 +18,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t kGrain = 128;  // nodes per task
-constexpr double kFirstCap = 6;      // F that the first snap may cost
+constexpr std::size_t kGrain = 8;  // nodes per task, at least: a patch of the repair has few of a colour
+constexpr double kFirstCap = 6;    // F that the first snap may cost
 constexpr double kLastCap = 14;
 constexpr double kCapGrowth = 1.4;  // per round
 constexpr double kStill = 0.002;    // edge lengths: a smaller step does not stir the neighbours
@@ -61,11 +61,11 @@ class Compressor {
         level_(active_.size(), 0.0),
         stirred_(active_.size(), 1),
         awake_(active_.size(), 1) {
-    for (std::size_t n = 0; n < active_.size(); ++n) {
-      if (!isBoundary(n)) continue;
+    forEach(active_.size(), [&](std::size_t n) {
+      if (!isBoundary(n)) return;
       const double level = phi.value(position(n));
       if (std::abs(level) > tolerance_) level_[n] = level;
-    }
+    });
   }
 
   CompressionReport run() {
@@ -96,11 +96,9 @@ class Compressor {
   Vector3d& position(std::size_t n) { return mesh_.nodes[active_.nodes[n]]; }
 
   std::vector<std::int32_t> unsnapped() const {
-    std::vector<std::int32_t> list;
-    for (std::size_t n = 0; n < level_.size(); ++n) {
+    return collect<std::int32_t>(level_.size(), [&](std::size_t n, auto& list) {
       if (level_[n] != 0) list.push_back(static_cast<std::int32_t>(n));
-    }
-    return list;
+    });
   }
 
   /// Puts all nodes to sleep but those within a few rings of the given ones.
@@ -160,21 +158,18 @@ class Compressor {
       return;
     }
     std::fill(stirred_.begin(), stirred_.end(), std::uint8_t{0});
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, mesh_.tets.size(), 4096), [&](const auto& range) {
+    forEach(mesh_.tets.size(), [&](std::size_t t) {
       const auto& x = mesh_.nodes;
-      for (std::size_t t = range.begin(); t < range.end(); ++t) {
-        const Tet& tet = mesh_.tets[t];
-        if (shapeMeasure(x[tet[3]], x[tet[0]], x[tet[1]], x[tet[2]]) > threshold) stir(tet);
-      }
+      const Tet& tet = mesh_.tets[t];
+      if (shapeMeasure(x[tet[3]], x[tet[0]], x[tet[1]], x[tet[2]]) > threshold) flag(tet, stirred_);
     });
   }
 
-  /// Some of the nodes may be stirred by several threads at once.
+  /// Sets the flags of those nodes that are active; several threads may set the same.
   template <class Nodes>
-  void stir(const Nodes& meshNodes) {
+  void flag(const Nodes& meshNodes, std::vector<std::uint8_t>& flags) const {
     for (const std::int32_t v : meshNodes) {
-      const std::int32_t n = active_.indexOf[v];
-      if (n >= 0) std::atomic_ref(stirred_[n]).store(1, std::memory_order_relaxed);
+      if (const std::int32_t n = active_.indexOf[v]; n >= 0) setFlag(flags[n]);
     }
   }
 
@@ -183,7 +178,7 @@ class Compressor {
     position(n) = x;
     if (step2 < kStill * kStill * options_.edgeLength * options_.edgeLength) return;
     stirred_[n] = 1;
-    for (const StarFaceNodes& face : active_.star(n)) stir(face);
+    for (const StarFaceNodes& face : active_.star(n)) flag(face, stirred_);
   }
 
   /// Sweeps of Newton steps over the nodes whose worst F is above the threshold, and of these only those that
@@ -276,29 +271,28 @@ class Compressor {
 
   std::vector<std::uint8_t> nodesOfWorstTets(double above) const {
     std::vector<std::uint8_t> flags(active_.size(), 0);
-    for (const Tet& tet : mesh_.tets) {
-      if (goalOf(mesh_.nodes[tet[3]], {tet[0], tet[1], tet[2]}) <= above) continue;
-      for (const std::int32_t v : tet) {
-        if (active_.indexOf[v] >= 0) flags[active_.indexOf[v]] = 1;
-      }
-    }
+    forEach(mesh_.tets.size(), [&](std::size_t t) {
+      const Tet& tet = mesh_.tets[t];
+      if (goalOf(mesh_.nodes[tet[3]], {tet[0], tet[1], tet[2]}) > above) flag(tet, flags);
+    });
     return flags;
   }
 
   /// Only tets with a node that was awake can have changed, and a tet without one was good.
   std::vector<std::uint8_t> nodesOfWorstTetsAroundAwake(double above) const {
     std::vector<std::uint8_t> flags(active_.size(), 0);
-    for (std::size_t n = 0; n < awake_.size(); ++n) {
-      if (awake_[n] == 0) continue;
-      const Vector3d& x = mesh_.nodes[active_.nodes[n]];
-      for (const StarFaceNodes& face : active_.star(static_cast<std::int32_t>(n))) {
-        if (goalOf(x, face) <= above) continue;
-        flags[n] = 1;
-        for (const std::int32_t v : face) {
-          if (active_.indexOf[v] >= 0) flags[active_.indexOf[v]] = 1;
-        }
-      }
-    }
+    forEach(
+        awake_.size(),
+        [&](std::size_t n) {
+          if (awake_[n] == 0) return;
+          const Vector3d& x = mesh_.nodes[active_.nodes[n]];
+          for (const StarFaceNodes& face : active_.star(static_cast<std::int32_t>(n))) {
+            if (goalOf(x, face) <= above) continue;
+            setFlag(flags[n]);
+            flag(face, flags);
+          }
+        },
+        kGrain);
     return flags;
   }
 

@@ -2,9 +2,12 @@
 
 #include "LocalRepair.h"
 #include "NodeStarEnergy.h"
+#include "Parallel.h"
 #include "sinew/Mesher/Candidate.h"
 #include "sinew/Mesher/LatticeMesh.h"
 #include "sinew/Mesher/Sizing.h"
+
+#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <chrono>
@@ -101,11 +104,16 @@ LatticeMesh latticeFor(const SignedDistance& phi, const SizingOptions& sizing,
 }
 
 double maxBoundaryPhi(const TetMesh& mesh, const SignedDistance& phi) {
-  double largest = 0;
-  for (std::size_t n = 0; n < mesh.nodes.size(); ++n) {
-    if (mesh.kinds[n] == NodeKind::Boundary) largest = std::max(largest, std::abs(phi.value(mesh.nodes[n])));
-  }
-  return largest;
+  return tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, mesh.nodes.size(), kBlock), 0.0,
+      [&](const auto& range, double largest) {
+        for (std::size_t n = range.begin(); n < range.end(); ++n) {
+          if (mesh.kinds[n] == NodeKind::Boundary)
+            largest = std::max(largest, std::abs(phi.value(mesh.nodes[n])));
+        }
+        return largest;
+      },
+      [](double a, double b) { return std::max(a, b); });
 }
 
 }  // namespace

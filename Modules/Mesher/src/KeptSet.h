@@ -1,5 +1,6 @@
 #pragma once
 
+#include "Parallel.h"
 #include "sinew/Mesher/LatticeMesh.h"
 
 #include <algorithm>
@@ -21,10 +22,10 @@ class KeptSet {
         enveloped_(std::move(enveloped)),
         keep_(mesh.tets.size(), 0),
         keptTets_(mesh.phi.size(), 0) {
-    for (std::size_t t = 0; t < mesh_.tets.size(); ++t) {
-      const Tet& tet = mesh_.tets[t];
-      if (hasEnveloped(tet)) keepTet(t);
-    }
+    forEach(keep_.size(), [&](std::size_t t) { keep_[t] = hasEnveloped(mesh_.tets[t]); });
+    forEach(keptTets_.size(), [&](std::size_t n) {
+      for (const std::int32_t t : stars_.of(static_cast<std::int32_t>(n))) keptTets_[n] += keep_[t];
+    });
   }
 
   bool isBoundary(std::int32_t n) const {

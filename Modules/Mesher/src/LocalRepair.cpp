@@ -2,6 +2,7 @@
 
 #include "KeptSet.h"
 #include "NodeStarEnergy.h"
+#include "Parallel.h"
 #include "RepairSpot.h"
 #include "sinew/Mesher/Compression.h"
 
@@ -26,6 +27,7 @@ constexpr std::size_t kMostEnveloped = 8;
 constexpr std::size_t kMostInner = 6;   // enveloped nodes that are given up in turn at a spot
 constexpr std::size_t kMostOuter = 10;  // boundary nodes that are taken in in turn at a spot
 constexpr double kWorstStart = 100;     // F with which a trial may begin
+constexpr std::size_t kGrain = 256;     // nodes of patches per task
 
 using Nodes = std::vector<std::int32_t>;
 
@@ -65,11 +67,12 @@ class LocalRepair {
         positions_(background.positions),
         patchOf_(background.positions.size(), kNone),
         nearPatch_(background.positions.size(), 0),
+        isGrown_(background.positions.size(), 0),
         localOf_(background.positions.size(), kNone) {
     Nodes latticeNodes;
     TetMesh mesh = extractMesh(background, set_.keep(), options.label, &latticeNodes);
     const CompressionReport report = compressOntoSurface(mesh, phi, {.edgeLength = options.edgeLength});
-    for (std::size_t n = 0; n < latticeNodes.size(); ++n) positions_[latticeNodes[n]] = mesh.nodes[n];
+    forEach(latticeNodes.size(), [&](std::size_t n) { positions_[latticeNodes[n]] = mesh.nodes[n]; });
     spots_ = repairSpots(mesh, latticeNodes, report.unsnapped);
   }
 
@@ -91,7 +94,7 @@ class LocalRepair {
           " boundary nodes cannot reach the surface without crushing tets; try a smaller edge length");
     Nodes latticeNodes;
     TetMesh mesh = extractMesh(background_, set_.keep(), options_.label, &latticeNodes);
-    for (std::size_t n = 0; n < latticeNodes.size(); ++n) mesh.nodes[n] = positions_[latticeNodes[n]];
+    forEach(latticeNodes.size(), [&](std::size_t n) { mesh.nodes[n] = positions_[latticeNodes[n]]; });
     return mesh;
   }
 
@@ -189,7 +192,7 @@ class LocalRepair {
   /// What is given up at a spot in the k-th trial: its shallowest enveloped node; that of all spots around
   /// too; all the nodes at the spot; then one after the other. After these its boundary nodes are taken in,
   /// one after the other. Empty when all has been tried.
-  Choice choiceAt(const Spot& spot, std::size_t trial) const {
+  Choice choiceAt(const Spot& spot, std::size_t trial) {
     const Nodes inner = envelopedAt(spot);
     const std::size_t releases = inner.empty() ? 0 : inner.size() + 2;
     if (trial >= releases) {
@@ -236,7 +239,7 @@ class LocalRepair {
     return nodes;
   }
 
-  Nodes shallowestAround(std::int32_t node) const {
+  Nodes shallowestAround(std::int32_t node) {
     const Nodes around = regionAround({node});
     Nodes nodes;
     for (const Spot& spot : spots_) {
@@ -256,7 +259,7 @@ class LocalRepair {
   }
 
   /// The nodes within a few rings of what has changed.
-  Nodes regionAround(const Nodes& changed) const {
+  Nodes regionAround(const Nodes& changed) {
     Nodes region = changed;
     for (const std::int32_t n : changed) addStar(n, false, region);
     sortUnique(region);
@@ -264,17 +267,20 @@ class LocalRepair {
   }
 
   /// With the nodes of kept tets a few rings further.
-  Nodes grown(Nodes nodes, int rings) const {
-    Nodes front = nodes, next;
-    for (int ring = 0; ring < rings; ++ring) {
-      next.clear();
-      for (const std::int32_t n : front) addStar(n, true, next);
-      sortUnique(next);
-      front.clear();
-      std::ranges::set_difference(next, nodes, std::back_inserter(front));
-      nodes.insert(nodes.end(), front.begin(), front.end());
-      std::ranges::inplace_merge(nodes, nodes.end() - std::ssize(front));
+  Nodes grown(Nodes nodes, int rings) {
+    for (const std::int32_t n : nodes) isGrown_[n] = 1;
+    for (std::size_t begin = 0; rings > 0; --rings) {
+      const std::size_t end = nodes.size();
+      for (; begin < end; ++begin) {
+        for (const std::int32_t t : stars_.of(nodes[begin])) {
+          if (!set_.isKept(t)) continue;
+          for (const std::int32_t v : background_.tets[t])
+            if (std::exchange(isGrown_[v], std::uint8_t{1}) == 0) nodes.push_back(v);
+        }
+      }
     }
+    for (const std::int32_t n : nodes) isGrown_[n] = 0;
+    std::ranges::sort(nodes);
     return nodes;
   }
 
@@ -295,7 +301,8 @@ class LocalRepair {
     Nodes latticeNodes;
     TetMesh local = localMesh(patches, latticeNodes);
     std::vector<std::uint8_t> region(latticeNodes.size());
-    for (std::size_t n = 0; n < region.size(); ++n) region[n] = isInner(latticeNodes[n]);
+    forEach(
+        region.size(), [&](std::size_t n) { region[n] = isInner(latticeNodes[n]); }, kGrain);
     const CompressionReport report =
         compressOntoSurface(local, phi_, {.edgeLength = options_.edgeLength}, region);
     const std::vector<Spot> found = repairSpots(local, latticeNodes, report.unsnapped);
@@ -339,17 +346,21 @@ class LocalRepair {
     });
   }
 
+  std::int32_t firstInPatch(const Tet& tet) const {
+    return *std::ranges::find_if(tet, [&](std::int32_t v) { return patchOf_[v] != kNone; });
+  }
+
   /// The kept tets that have a node in a patch, at the present positions.
   TetMesh localMesh(const std::vector<Patch>& patches, Nodes& latticeNodes) {
     Nodes tets;
     for (const Patch& patch : patches) {
       for (const std::int32_t n : patch.region) {
         for (const std::int32_t t : stars_.of(n)) {
-          if (set_.isKept(t)) tets.push_back(t);
+          if (set_.isKept(t) && n == firstInPatch(background_.tets[t])) tets.push_back(t);
         }
       }
     }
-    sortUnique(tets);
+    std::ranges::sort(tets);
 
     TetMesh mesh;
     for (const std::int32_t t : tets) {
@@ -378,6 +389,7 @@ class LocalRepair {
   std::vector<Eigen::Vector3d> positions_;  ///< of the lattice nodes, as compressed so far
   Nodes patchOf_;                           ///< lattice node -> patch of the present round, or kNone
   std::vector<std::uint8_t> nearPatch_;     ///< scratch of choosePatches
+  std::vector<std::uint8_t> isGrown_;       ///< scratch of grown
   Nodes localOf_;                           ///< scratch of localMesh
   std::vector<Spot> spots_;
   std::map<Nodes, std::size_t> trials_;  ///< spot -> choices that did not help

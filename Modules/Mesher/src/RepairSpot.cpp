@@ -1,6 +1,7 @@
 #include "RepairSpot.h"
 
 #include "GoalMeasure.h"
+#include "Parallel.h"
 #include "sinew/Mesher/MeshQuality.h"
 
 namespace sinew {
@@ -21,18 +22,20 @@ constexpr Limits kBad{3.5, 25, 140}, kGrave{4.2, 20, 142};
 
 std::vector<Spot> repairSpots(const TetMesh& mesh, const std::vector<std::int32_t>& latticeNodes,
                               const std::vector<std::int32_t>& unsnapped) {
-  std::vector<Spot> spots;
-  for (const std::int32_t n : unsnapped) spots.push_back({{latticeNodes[n]}, kInfinity, true});
   const auto& x = mesh.nodes;
-  for (const auto& [a, b, c, d] : mesh.tets) {
+  const std::vector<Spot> bad = collect<Spot>(mesh.tets.size(), [&](std::size_t t, auto& found) {
+    const auto& [a, b, c, d] = mesh.tets[t];
     const double measure = goalMeasure(x[d], x[a], x[b], x[c]);
-    if (measure <= 1) continue;
+    if (measure <= 1) return;
     const TetQuality quality = tetQuality(x[a], x[b], x[c], x[d]);
-    if (!kBad.exceededBy(quality)) continue;
-    spots.push_back({{latticeNodes[a], latticeNodes[b], latticeNodes[c], latticeNodes[d]},
+    if (!kBad.exceededBy(quality)) return;
+    found.push_back({{latticeNodes[a], latticeNodes[b], latticeNodes[c], latticeNodes[d]},
                      measure,
                      kGrave.exceededBy(quality)});
-  }
+  });
+  std::vector<Spot> spots;
+  for (const std::int32_t n : unsnapped) spots.push_back({{latticeNodes[n]}, kInfinity, true});
+  spots.insert(spots.end(), bad.begin(), bad.end());
   return spots;
 }
 
