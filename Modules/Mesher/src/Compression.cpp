@@ -2,6 +2,7 @@
 
 #include "ActiveNodes.h"
 #include "GoalMeasure.h"
+#include "GoalStar.h"
 #include "NodeStarEnergy.h"
 #include "Parallel.h"
 #include "SurfaceProjection.h"
@@ -121,11 +122,11 @@ class Compressor {
   }
 
   /// Calls move(n, star) for the awake nodes, colour by colour; the star is empty until it is gathered.
-  template <class Move>
+  template <class Star, class Move>
   void forEachNode(const Move& move) {
     for (const auto& [begin, end] : active_.colors) {
       tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, kGrain), [&](const auto& range) {
-        NodeStar star;
+        Star star;
         for (std::size_t n = range.begin(); n < range.end(); ++n) {
           if (awake_[n] != 0) move(static_cast<std::int32_t>(n), star);
         }
@@ -137,7 +138,7 @@ class Compressor {
 
   /// Moves boundary nodes towards phi = 0 as far as the cap on F allows.
   void snap(double cap) {
-    forEachNode([&](std::int32_t n, NodeStar& star) {
+    forEachNode<NodeStar>([&](std::int32_t n, NodeStar& star) {
       if (!isBoundary(n) || level_[n] == 0) return;
       gather(n, star);
       for (const double fraction : {1.0, 0.6, 0.3, 0.1}) {
@@ -185,7 +186,7 @@ class Compressor {
   /// have moved, or seen a neighbour move, since their last turn.
   void descend(const Descent& descent) {
     for (int sweep = 0; sweep < descent.sweeps; ++sweep) {
-      forEachNode([&](std::int32_t n, NodeStar& star) {
+      forEachNode<NodeStar>([&](std::int32_t n, NodeStar& star) {
         if (std::exchange(stirred_[n], std::uint8_t{0}) == 0) return;
         gather(n, star);
         double ceiling = descent.ceiling;
@@ -253,8 +254,8 @@ class Compressor {
     std::fill(stirred_.begin(), stirred_.end(), std::uint8_t{1});
     awake_ = nodesOfWorstTets(stretch.above);
     for (int sweep = 0; sweep < stretch.sweeps && any(awake_); ++sweep) {
-      forEachNode([&](std::int32_t n, NodeStar&) {
-        if (std::exchange(stirred_[n], std::uint8_t{0}) != 0) descendGoal(n, stretch);
+      forEachNode<GoalStar>([&](std::int32_t n, GoalStar& star) {
+        if (std::exchange(stirred_[n], std::uint8_t{0}) != 0) descendGoal(n, star, stretch);
       });
       awake_ = nodesOfWorstTetsAroundAwake(stretch.above);
     }
@@ -296,48 +297,30 @@ class Compressor {
     return flags;
   }
 
-  /// Sum of m^p, or anything above `enough` once it is.
-  double goalEnergy(const Vector3d& x, std::span<const StarFaceNodes> tets, int p,
-                    double enough = kInfinity) const {
-    double energy = 0;
-    for (std::size_t t = 0; t < tets.size() && energy <= enough; ++t) energy += power(goalOf(x, tets[t]), p);
-    return energy;
-  }
-
-  /// The tets of a star, those first that decide on the gradient of its goal energy.
-  struct GoalStar {
-    std::vector<StarFaceNodes> tets;
+  /// Puts the tets first that decide on the gradient of the goal energy.
+  /// @return how many they are
+  static std::size_t sortDecisive(GoalStar& star, const std::vector<double>& measures, double least) {
     std::size_t decisive = 0;
-    double energy = 0;
-    double worst = 0;
-    double shortestEdge = kInfinity;
-  };
-
-  GoalStar goalStar(const Vector3d& x, std::span<const StarFaceNodes> tets, const Finish& stretch) const {
-    GoalStar star{{tets.begin(), tets.end()}};
-    std::vector<double> measures;
-    for (const StarFaceNodes& face : tets) {
-      measures.push_back(goalOf(x, face));
-      star.worst = std::max(star.worst, measures.back());
-      star.energy += power(measures.back(), stretch.power);
-      for (const std::int32_t v : face)
-        star.shortestEdge = std::min(star.shortestEdge, (mesh_.nodes[v] - x).norm());
-    }
-    for (std::size_t t = 0; t < tets.size(); ++t)
-      if (measures[t] >= stretch.decisive * star.worst) std::swap(star.tets[star.decisive++], star.tets[t]);
-    return star;
+    for (std::size_t t = 0; t < measures.size(); ++t)
+      if (measures[t] >= least) star.swap(decisive++, t);
+    return decisive;
   }
 
-  void descendGoal(std::int32_t n, const Finish& stretch) {
+  void descendGoal(std::int32_t n, GoalStar& star, const Finish& stretch) {
     const Vector3d x = position(n);
-    const GoalStar star = goalStar(x, active_.star(n), stretch);
-    if (star.worst > stretch.hopeless) return;
-    const std::span<const StarFaceNodes> decisive(star.tets.data(), star.decisive);
+    star.gather(active_.star(n), mesh_.nodes);
+    const std::span<const double> row = star.measures(x, star.size());
+    const std::vector<double> measures(row.begin(), row.end());
+    const double worst = std::ranges::max(measures);
+    if (worst > stretch.hopeless) return;
+    const double energy = star.energy(x, stretch.power, star.size());
+    const double shortestEdge = star.shortestEdge(x);
+    const std::size_t decisive = sortDecisive(star, measures, stretch.decisive * worst);
     Vector3d gradient;
     for (int axis = 0; axis < 3; ++axis) {
-      const Vector3d offset = 1e-4 * star.shortestEdge * Vector3d::Unit(axis);
+      const Vector3d offset = 1e-4 * shortestEdge * Vector3d::Unit(axis);
       gradient[axis] =
-          goalEnergy(x + offset, decisive, stretch.power) - goalEnergy(x - offset, decisive, stretch.power);
+          star.energy(x + offset, stretch.power, decisive) - star.energy(x - offset, stretch.power, decisive);
     }
     if (isBoundary(n)) {
       Eigen::Matrix<double, 3, 2> tangents;
@@ -347,10 +330,10 @@ class Compressor {
     const double norm = gradient.norm();
     if (!(norm > 0) || !std::isfinite(norm)) return;
     for (double step = 0.16; step > 0.002; step *= 0.5) {
-      const Vector3d moved = x - step * star.shortestEdge / norm * gradient;
+      const Vector3d moved = x - step * shortestEdge / norm * gradient;
       const std::optional<Vector3d> target =
           isBoundary(n) ? project_(moved, level_[n]) : std::optional(moved);
-      if (target && goalEnergy(*target, star.tets, stretch.power, star.energy) < star.energy) {
+      if (target && star.energy(*target, stretch.power, star.size()) < energy) {
         moveTo(n, *target);
         return;
       }

@@ -12,11 +12,12 @@ namespace sinew {
 ///
 ///     m = max( AR / 3,  max over the edges of |cos theta - c| / r ),   [c - r, c + r] = [cos 130, cos 30]
 inline constexpr double kGoalAspectRatio = 3;
+inline constexpr double kGoalCosMin = -0.6427876096865394, kGoalCosMax = 0.8660254037844387;
+inline constexpr double kGoalCosineCentre = 0.5 * (kGoalCosMax + kGoalCosMin),
+                        kGoalCosineRadius = 0.5 * (kGoalCosMax - kGoalCosMin);
 
 inline double goalMeasure(const Eigen::Vector3d& x, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                           const Eigen::Vector3d& c) {
-  constexpr double cosMin = -0.6427876096865394, cosMax = 0.8660254037844387;
-  constexpr double centre = 0.5 * (cosMax + cosMin), radius = 0.5 * (cosMax - cosMin);
   const Eigen::Vector3d ab = b - a, ac = c - a, bc = c - b, ax = x - a, bx = x - b, cx = x - c;
   // Inward normals of the faces opposite to x, a, b, c; lengths are twice the areas.
   const std::array<Eigen::Vector3d, 4> n{ab.cross(ac), cx.cross(bx), ax.cross(cx), bx.cross(ax)};
@@ -30,7 +31,7 @@ inline double goalMeasure(const Eigen::Vector3d& x, const Eigen::Vector3d& a, co
   double measure = aspect / kGoalAspectRatio;
   for (const auto& [f, g] : kTetEdges) {
     const double cosine = -n[f].dot(n[g]) / (area[f] * area[g]);
-    measure = std::max(measure, std::abs(cosine - centre) / radius);
+    measure = std::max(measure, std::abs(cosine - kGoalCosineCentre) / kGoalCosineRadius);
   }
   return measure;
 }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <map>
+#include <random>
 #include <set>
 
 namespace sinew {
@@ -55,6 +56,22 @@ TEST(NodeStars, ListTheTetsOfEveryNodeInOrder) {
       if (std::ranges::count(tets[t], n) > 0) expected.push_back(t);
     EXPECT_TRUE(std::ranges::equal(stars.of(n), expected)) << n;
   }
+}
+
+TEST(NodeStars, OfManyTetsAreTheSame) {
+  constexpr std::size_t nodes = 700;
+  std::mt19937 random(21);
+  std::vector<Tet> tets(100'000);  // enough for several tasks
+  std::vector<std::vector<std::int32_t>> expected(nodes);
+  for (std::size_t t = 0; t < tets.size(); ++t) {
+    for (std::int32_t& v : tets[t]) {
+      v = static_cast<std::int32_t>(random() % nodes);
+      expected[v].push_back(static_cast<std::int32_t>(t));
+    }
+  }
+  const NodeStars stars = nodeStars(nodes, tets);
+  for (std::size_t n = 0; n < nodes; ++n)
+    ASSERT_TRUE(std::ranges::equal(stars.of(static_cast<std::int32_t>(n)), expected[n])) << "seed 21, " << n;
 }
 
 TEST(LatticeMesh, HoldsPhiAtItsNodesAndPositiveTets) {

@@ -3,6 +3,7 @@
 #include "sinew/Mesher/RedGreenLattice.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <map>
@@ -21,28 +22,23 @@ using test::sixVolume;
 constexpr Int3 kCells{8, 8, 8};
 constexpr int kLevels = 4;
 
-struct Request {
-  int level;
-  BccTet tet;
-};
-
 /// Random tets to refine, in the middle cubes so that the border stays whole.
-std::vector<Request> randomRequests(unsigned seed, int count) {
+std::vector<LevelTet> randomRequests(unsigned seed, int count, int levels = kLevels) {
   std::mt19937 random(seed);
   const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
-  std::vector<Request> requests;
+  std::vector<LevelTet> requests;
   for (int k = 0; k < count; ++k) {
-    Request request{0, RedGreenLattice::coarseTets({3 + below(2), 3 + below(2), 3 + below(2)})[below(12)]};
-    for (const int depth = below(kLevels - 1); request.level < depth; ++request.level)
+    LevelTet request{0, RedGreenLattice::coarseTets({3 + below(2), 3 + below(2), 3 + below(2)})[below(12)]};
+    for (const int depth = below(levels - 1); request.level < depth; ++request.level)
       request.tet = redChildren(request.tet)[below(kRedChildren)];
     requests.push_back(request);
   }
   return requests;
 }
 
-RedGreenLattice refined(const std::vector<Request>& requests) {
+RedGreenLattice refined(const std::vector<LevelTet>& requests) {
   RedGreenLattice lattice(kCells, kLevels);
-  for (const Request& request : requests) lattice.refine(request.level, request.tet);
+  for (const LevelTet& request : requests) lattice.refine(request.level, request.tet);
   lattice.close();
   return lattice;
 }
@@ -135,7 +131,7 @@ TEST(RedGreenLattice, NothingIsRefinedBelowAGreenTet) {
 
 TEST(RedGreenLattice, RequestedTetsAndTheirAncestorsAreRefined) {
   for (const unsigned seed : kSeeds) {
-    const std::vector<Request> requests = randomRequests(seed, 8);
+    const std::vector<LevelTet> requests = randomRequests(seed, 8);
     const RedGreenLattice lattice = refined(requests);
     for (auto [level, tet] : requests)
       for (; level >= 0; --level, tet = redParent(tet)) EXPECT_TRUE(lattice.isRefined(level, tet));
@@ -153,15 +149,32 @@ TEST(RedGreenLattice, ClosingTwiceChangesNothing) {
 
 TEST(RedGreenLattice, TheOrderOfRequestsAndClosingsDoesNotMatter) {
   for (const unsigned seed : kSeeds) {
-    std::vector<Request> requests = randomRequests(seed, 10);
+    std::vector<LevelTet> requests = randomRequests(seed, 10);
     const std::vector<Int3> together = refined(requests).nodes().nodes();
     std::shuffle(requests.begin(), requests.end(), std::mt19937(seed));
     RedGreenLattice lattice(kCells, kLevels);
-    for (const Request& request : requests) {
+    for (const LevelTet& request : requests) {
       lattice.refine(request.level, request.tet);
       lattice.close();
     }
     EXPECT_EQ(lattice.nodes().nodes(), together) << "seed " << seed;
+  }
+}
+
+TEST(RedGreenLattice, ManyAtOnceAsOneByOneForAnyNumberOfThreads) {
+  constexpr int levels = 6;  // pages without a node of level 0
+  for (const unsigned seed : kSeeds) {
+    const std::vector<LevelTet> requests = randomRequests(seed, 2000, levels);
+    RedGreenLattice single(kCells, levels);
+    for (const LevelTet& request : requests) single.refine(request.level, request.tet);
+    single.close();
+    for (const std::size_t threads : {1, 4}) {
+      const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+      RedGreenLattice lattice(kCells, levels);
+      lattice.refine(requests);
+      lattice.close();
+      EXPECT_EQ(lattice.nodes().nodes(), single.nodes().nodes()) << "seed " << seed << ", " << threads;
+    }
   }
 }
 
