@@ -61,7 +61,9 @@ double largestBoundaryPhi(const TetMesh& mesh, const SignedDistance& phi) {
 }
 
 TEST(AnalyticShapes, EveryMeshIsSound) {
-  for (const unsigned seed : test::seeds(kShapes)) {
+  const std::vector<unsigned> seeds = test::seeds(kShapes);
+  EXPECT_FALSE(seeds.empty());
+  for (const unsigned seed : seeds) {
     const Meshing& meshing = kMeshings[seed % kMeshings.size()];
     const int kind = static_cast<int>(seed % test::ShapeMaker::kKinds);
     // Two thirds of the shapes are known only in the band that the mesher asks for.

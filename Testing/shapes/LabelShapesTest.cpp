@@ -39,7 +39,9 @@ MeshTissuesOptions optionsOf(const Meshing& meshing) {
 
 TEST(LabelShapes, EveryMeshIsSound) {
   const test::TempFolder folder;
-  for (const unsigned seed : test::seeds(kShapes)) {
+  const std::vector<unsigned> seeds = test::seeds(kShapes);
+  EXPECT_FALSE(seeds.empty());
+  for (const unsigned seed : seeds) {
     const auto [drawing, segmentation] = test::RandomScan(seed).make();
     const Meshing& meshing = kMeshings[seed % kMeshings.size()];
     SCOPED_TRACE(test::repeatWith(seed, std::string(drawing.name) + ", " + meshing.name));

@@ -79,8 +79,8 @@ void markBesideSurface(const DenseField& phi, int j, int k, std::vector<std::uin
   std::uint8_t* mark = beside.data();
   const auto other = [&](const float* neighbour, int i) { return (neighbour[i] < 0) != (row[i] < 0); };
   for (int i = 0; i < nx; ++i) mark[i] = other(front, i) | other(back, i) | other(below, i) | other(above, i);
-  for (int i = 1; i < nx; ++i) mark[i] |= other(row - 1, i);
-  for (int i = 0; i + 1 < nx; ++i) mark[i] |= other(row + 1, i);
+  for (int i = 1; i < nx; ++i) mark[i] |= (row[i - 1] < 0) != (row[i] < 0);
+  for (int i = 0; i + 1 < nx; ++i) mark[i] |= (row[i + 1] < 0) != (row[i] < 0);
 }
 
 /// The crossing bounds the distance from above up to the curvature within a voxel: a closest point much

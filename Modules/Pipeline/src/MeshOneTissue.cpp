@@ -162,13 +162,20 @@ class TissueRun {
   static double volumeError(const Attempt& attempt) {
     return std::abs(meshVolume(attempt.mesh) / attempt.volumes.levelSetVolume - 1);
   }
-  static bool losesThinParts(const Attempt& attempt) {
+  /// Without curvature and tolerance nothing is refined.
+  bool losesThinParts(const Attempt& attempt) const {
     constexpr double kMostLost = 0.01;
-    return volumeError(attempt) > kMostLost;
+    return (options_.curvature > 0 || options_.tolerance.value > 0) && volumeError(attempt) > kMostLost;
   }
 
   /// Meshes once more with the smallest cubes that the plan allows, and takes what keeps the volume better.
   void refineThinParts(Attempt& attempt) {
+    constexpr double kBytesPerTet = 400;
+    // Thin parts are sheets: their tets grow with the square of the refinement.
+    const double finerBy = attempt.plan.sizes.smallest / attempt.plan.thinnest;
+    const double memory = kBytesPerTet * static_cast<double>(attempt.mesh.tets.size()) * finerBy * finerBy;
+    if (memory > availableMemory_) return;
+
     Attempt finer;
     finer.plan = attempt.plan;
     finer.plan.sizes.smallest = attempt.plan.thinnest;
@@ -177,7 +184,7 @@ class TissueRun {
     options.progress = [this](std::string_view, double) { advance("refining thin parts", kAfterMesh); };
     try {
       finer.mesh = generateOn(*attempt.surface, options);
-    } catch (const std::runtime_error&) {
+    } catch (const std::exception&) {
       return;  // no mesh with smaller cubes: the one before stands
     }
     if (volumeError(finer) >= volumeError(attempt)) return;
@@ -198,7 +205,7 @@ class TissueRun {
       Attempt attempt;
       try {
         attempt = attemptWith(plan, share);
-      } catch (const std::runtime_error&) {
+      } catch (const std::exception&) {
         if (trials.empty()) throw;
         break;  // too much memory, or no mesh at this edge length: what was found before stands
       }
@@ -257,7 +264,7 @@ class TissueRun {
       TetMesh mesh;
       try {
         mesh = meshAt(*offset);
-      } catch (const std::runtime_error&) {
+      } catch (const std::exception&) {
         break;  // no mesh on the moved surface: the best so far stands
       }
       trials.push_back({*offset, meshVolume(mesh)});

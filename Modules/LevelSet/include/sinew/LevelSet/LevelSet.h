@@ -10,7 +10,7 @@ struct LevelSetGrid;  ///< holds the openvdb::FloatGrid; defined in sinew/LevelS
 /// The signed distance of one tissue on an isotropic grid, phi < 0 inside.
 ///
 /// Grid index i lies at  x = frame * (voxelSize * i),  mm in LPS; the values are stored at integer i in an OpenVDB
-/// float grid, exact in the narrow band |phi| < band and +-band beyond it.
+/// float grid, as bandDistance gives it where |phi| < band, +-band beyond.
 struct LevelSet {
   std::shared_ptr<LevelSetGrid> grid;
   Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();  ///< grid axes to LPS; a proper rotation and a translation

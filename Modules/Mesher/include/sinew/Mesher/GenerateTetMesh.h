@@ -17,7 +17,7 @@ struct GenerateTetMeshOptions {
   /// Smallest cube size that thickness, and down to phi.resolution() also curvature and tolerance, may ask
   /// for, mm; 0: phi.resolution(). What is above edgeLength counts as edgeLength.
   double minEdgeLength = 0;
-  double curvature = 1.0;  ///< refine where cube size * (|k1| + |k2|) exceeds this; 0 switches it off
+  double curvature = 1.0;  ///< refine where cube size * (|k1| + |k2|) exceeds this; 0: nowhere, nor thin parts
   double tolerance = 0;    ///< refine where an edge would leave the surface by more, mm; 0 switches it off
   int levels = 0;          ///< largest number of lattice levels; 0: as many as the sizes ask for
   std::int32_t label = 1;  ///< written to TetMesh::labels

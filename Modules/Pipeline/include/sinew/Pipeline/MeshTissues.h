@@ -21,8 +21,8 @@ struct MeshTissuesOptions {
   /// root of its volume.
   Length edgeLength = Length::voxels(2);
   Length maxEdgeLength = 0;  ///< cube size deep inside; 0: eight times the edge length
-  /// Smallest cube that refinement may make; 0: half a voxel, or a quarter of the edge length where that is
-  /// more.
+  /// Smallest cube that refinement may make; 0: the level set's spacing, and where more than 1 % of the
+  /// volume would be lost half a voxel, or a quarter of the edge length where that is more.
   Length minEdgeLength = 0;
   std::map<std::string, Length> sizes;  ///< tissue, by a wish as in selectTissues -> its own edge length, > 0
   /// Choose the edge length of tissues without one in `sizes` for so many tets within 10 %; 0: off.
