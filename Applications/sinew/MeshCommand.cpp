@@ -7,8 +7,8 @@
 #include "sinew/Pipeline/Memory.h"
 #include "sinew/Pipeline/OutputFile.h"
 #include "sinew/Pipeline/Report.h"
-#include "sinew/Pipeline/SelectTissues.h"
 #include "sinew/Segmentation/ReadSegmentation.h"
+#include "sinew/Segmentation/SelectTissues.h"
 
 #include <chrono>
 #include <iostream>

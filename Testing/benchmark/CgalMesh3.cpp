@@ -2,8 +2,8 @@
 // does: the peer of `sinew mesh` in the comparison. Reads and writes with Sinew's own modules, so that both
 // programs pay the same for their files.
 #include "sinew/MeshIO/VtuFile.h"
-#include "sinew/Pipeline/SelectTissues.h"
 #include "sinew/Segmentation/ReadSegmentation.h"
+#include "sinew/Segmentation/SelectTissues.h"
 
 #include <CLI/CLI.hpp>
 

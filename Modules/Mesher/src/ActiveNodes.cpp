@@ -82,11 +82,10 @@ std::vector<std::uint8_t> movableNodes(const TetMesh& mesh) {
   std::vector<std::uint8_t> movable(mesh.nodes.size());
   for (std::size_t n = 0; n < movable.size(); ++n) movable[n] = mesh.kinds[n] == NodeKind::Boundary;
   growRings(mesh, kRings, movable);
-  const auto& x = mesh.nodes;
   forEach(mesh.tets.size(), [&](std::size_t t) {
     const Tet& tet = mesh.tets[t];
     if (std::ranges::all_of(tet, [&](std::int32_t v) { return isSet(movable[v]); })) return;
-    if (shapeMeasure(x[tet[3]], x[tet[0]], x[tet[1]], x[tet[2]]) <= kGreenShape) return;
+    if (shapeMeasure(tet, mesh.nodes) <= kGreenShape) return;
     for (const std::int32_t v : tet) setFlag(movable[v]);
   });
   return movable;

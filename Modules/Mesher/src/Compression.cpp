@@ -160,9 +160,8 @@ class Compressor {
     }
     std::fill(stirred_.begin(), stirred_.end(), std::uint8_t{0});
     forEach(mesh_.tets.size(), [&](std::size_t t) {
-      const auto& x = mesh_.nodes;
       const Tet& tet = mesh_.tets[t];
-      if (shapeMeasure(x[tet[3]], x[tet[0]], x[tet[1]], x[tet[2]]) > threshold) flag(tet, stirred_);
+      if (shapeMeasure(tet, mesh_.nodes) > threshold) flag(tet, stirred_);
     });
   }
 
@@ -266,15 +265,11 @@ class Compressor {
     return std::find(flags.begin(), flags.end(), std::uint8_t{1}) != flags.end();
   }
 
-  double goalOf(const Vector3d& x, const StarFaceNodes& face) const {
-    return goalMeasure(x, mesh_.nodes[face[0]], mesh_.nodes[face[1]], mesh_.nodes[face[2]]);
-  }
-
   std::vector<std::uint8_t> nodesOfWorstTets(double above) const {
     std::vector<std::uint8_t> flags(active_.size(), 0);
     forEach(mesh_.tets.size(), [&](std::size_t t) {
       const Tet& tet = mesh_.tets[t];
-      if (goalOf(mesh_.nodes[tet[3]], {tet[0], tet[1], tet[2]}) > above) flag(tet, flags);
+      if (goalMeasure(tet, mesh_.nodes) > above) flag(tet, flags);
     });
     return flags;
   }
@@ -286,9 +281,9 @@ class Compressor {
         awake_.size(),
         [&](std::size_t n) {
           if (awake_[n] == 0) return;
-          const Vector3d& x = mesh_.nodes[active_.nodes[n]];
           for (const StarFaceNodes& face : active_.star(static_cast<std::int32_t>(n))) {
-            if (goalOf(x, face) <= above) continue;
+            const auto& [a, b, c] = face;
+            if (goalMeasure({a, b, c, active_.nodes[n]}, mesh_.nodes) <= above) continue;
             setFlag(flags[n]);
             flag(face, flags);
           }

@@ -81,8 +81,7 @@ double greenShare(const LatticeMesh& mesh) {
     const auto [a, b, c, d] = tet;
     if (std::min(std::min(mesh.phi[a], mesh.phi[b]), std::min(mesh.phi[c], mesh.phi[d])) >= 0) continue;
     ++inside;
-    const auto& x = mesh.positions;
-    green += shapeMeasure(x[d], x[a], x[b], x[c]) > kRedShape;
+    green += shapeMeasure(tet, mesh.positions) > kRedShape;
   }
   return inside > 0 ? static_cast<double>(green) / static_cast<double>(inside) : 0;
 }
@@ -155,8 +154,6 @@ double estimateMemory(const SignedDistance& phi, const GenerateTetMeshOptions& o
   constexpr double kNear = 0.5;        // a plane has about one cube centre this near, in cubes, per cube face
   constexpr double kSurfaceTets = 60;  // tets within the uniform layer, per area of one edge length squared
   constexpr double kInteriorTets = 12;  // tets per cube of the largest size
-  constexpr double kBytesPerTet =
-      400;  // measured at the peak of the compression, bits of the lattice included
   const SizingOptions sizing = sizingOptions(phi, options);
   constexpr double kSamplesAcross = 64;  // at least, in a shape that is known everywhere
   const Eigen::AlignedBox3d box = phi.bounds();

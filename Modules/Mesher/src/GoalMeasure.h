@@ -36,4 +36,8 @@ inline double goalMeasure(const Eigen::Vector3d& x, const Eigen::Vector3d& a, co
   return measure;
 }
 
+inline double goalMeasure(const Tet& tet, const std::vector<Eigen::Vector3d>& nodes) {
+  return goalMeasure(nodes[tet[3]], nodes[tet[0]], nodes[tet[1]], nodes[tet[2]]);
+}
+
 }  // namespace sinew

@@ -62,13 +62,7 @@ void GoalStar::gather(std::span<const StarFaceNodes> faces, const std::vector<Ve
     capacity_ = tets_;
     rows_.resize(capacity_ * (kCorners + 1));
   }
-  for (std::size_t t = 0; t < tets_; ++t) {
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      const Vector3d& node = nodes[static_cast<std::size_t>(faces[t][corner])];
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        rows_[(3 * corner + axis) * capacity_ + t] = node[static_cast<Eigen::Index>(axis)];
-    }
-  }
+  gatherCorners(faces, nodes, capacity_, rows_.data());
 }
 
 std::span<const double> GoalStar::measures(const Vector3d& x, std::size_t count) {

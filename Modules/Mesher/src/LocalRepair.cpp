@@ -175,9 +175,7 @@ class LocalRepair {
     }
     return std::ranges::all_of(patch.region, [&](std::int32_t n) {
       return std::ranges::all_of(stars_.of(n), [&](std::int32_t t) {
-        const auto& [a, b, c, d] = background_.tets[t];
-        return !set_.isKept(t) ||
-               shapeMeasure(positions_[d], positions_[a], positions_[b], positions_[c]) < kWorstStart;
+        return !set_.isKept(t) || shapeMeasure(background_.tets[t], positions_) < kWorstStart;
       });
     });
   }

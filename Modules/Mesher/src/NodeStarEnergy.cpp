@@ -137,6 +137,17 @@ SINEW_VECTOR_CLONES void fillCoefficients(const double* __restrict corners, std:
 
 }  // namespace
 
+void gatherCorners(std::span<const StarFaceNodes> faces, const std::vector<Vector3d>& nodes,
+                   std::size_t rowLength, double* rows) {
+  for (std::size_t t = 0; t < faces.size(); ++t) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const Vector3d& node = nodes[static_cast<std::size_t>(faces[t][corner])];
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        rows[(3 * corner + axis) * rowLength + t] = node[static_cast<Eigen::Index>(axis)];
+    }
+  }
+}
+
 void NodeStar::gather(std::span<const StarFaceNodes> faces, const std::vector<Vector3d>& nodes,
                       const Vector3d& origin) {
   origin_ = origin;
@@ -145,15 +156,8 @@ void NodeStar::gather(std::span<const StarFaceNodes> faces, const std::vector<Ve
     capacity_ = tets_;
     rows_.resize(capacity_ * kRows);
   }
-  double* corners = row(kCorners);
-  for (std::size_t t = 0; t < tets_; ++t) {
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      const Vector3d& node = nodes[static_cast<std::size_t>(faces[t][corner])];
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        corners[(3 * corner + axis) * capacity_ + t] = node[static_cast<Eigen::Index>(axis)];
-    }
-  }
-  fillCoefficients(corners, capacity_, tets_, origin.x(), origin.y(), origin.z(), row(kNx));
+  gatherCorners(faces, nodes, capacity_, row(kCorners));
+  fillCoefficients(row(kCorners), capacity_, tets_, origin.x(), origin.y(), origin.z(), row(kNx));
 }
 
 StarValue NodeStar::value(const Vector3d& x, int q) const {

@@ -29,6 +29,10 @@ inline double shapeMeasure(const Eigen::Vector3d& x, const Eigen::Vector3d& a, c
   return L * L * L / (432 * volume6 * volume6);
 }
 
+inline double shapeMeasure(const Tet& tet, const std::vector<Eigen::Vector3d>& nodes) {
+  return shapeMeasure(nodes[tet[3]], nodes[tet[0]], nodes[tet[1]], nodes[tet[2]]);
+}
+
 /// base^q for the small integer powers that the descent uses.
 inline double power(double base, int q) {
   double result = 1;
@@ -37,6 +41,11 @@ inline double power(double base, int q) {
   }
   return result;
 }
+
+/// Writes the coordinates of the faces' nodes into nine rows of a length: x, y, z of the first node of every
+/// face, then of the second and the third.
+void gatherCorners(std::span<const StarFaceNodes> faces, const std::vector<Eigen::Vector3d>& nodes,
+                   std::size_t rowLength, double* rows);
 
 /// Sum of F^q over a star, and its largest F; both infinite when a tet is not positive.
 struct StarValue {

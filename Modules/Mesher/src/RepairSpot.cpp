@@ -25,7 +25,7 @@ std::vector<Spot> repairSpots(const TetMesh& mesh, const std::vector<std::int32_
   const auto& x = mesh.nodes;
   const std::vector<Spot> bad = collect<Spot>(mesh.tets.size(), [&](std::size_t t, auto& found) {
     const auto& [a, b, c, d] = mesh.tets[t];
-    const double measure = goalMeasure(x[d], x[a], x[b], x[c]);
+    const double measure = goalMeasure(mesh.tets[t], x);
     if (measure <= 1) return;
     const TetQuality quality = tetQuality(x[a], x[b], x[c], x[d]);
     if (!kBad.exceededBy(quality)) return;

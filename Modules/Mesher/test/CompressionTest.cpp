@@ -42,8 +42,8 @@ void expectOnTheSurface(const TetMesh& mesh, const SignedDistance& phi, const Co
 
 int tetsFarFromTheGoals(const TetMesh& mesh) {
   const auto& x = mesh.nodes;
-  return static_cast<int>(std::ranges::count_if(
-      mesh.tets, [&](const Tet& t) { return goalMeasure(x[t[3]], x[t[0]], x[t[1]], x[t[2]]) > 1.02; }));
+  return static_cast<int>(
+      std::ranges::count_if(mesh.tets, [&](const Tet& t) { return goalMeasure(t, x) > 1.02; }));
 }
 
 TEST(Compression, PutsTheBoundaryOfRandomShapesOnTheSurfaceAndInvertsNothing) {

@@ -1,9 +1,9 @@
 #include "GoalMeasure.h"
-#include "sinew/TestSupport/RandomShapes.h"
 #include "sinew/Mesher/GenerateTetMesh.h"
 #include "sinew/Mesher/MeshQuality.h"
 #include "sinew/Mesher/MoveBoundary.h"
 #include "sinew/TestSupport/AnalyticDistance.h"
+#include "sinew/TestSupport/RandomShapes.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -21,7 +21,7 @@ TetMesh meshOf(const SignedDistance& phi, double edge) {
 
 double worst(const TetMesh& mesh, const std::vector<Eigen::Vector3d>& x) {
   double measure = 0;
-  for (const auto& [a, b, c, d] : mesh.tets) measure = std::max(measure, goalMeasure(x[d], x[a], x[b], x[c]));
+  for (const Tet& tet : mesh.tets) measure = std::max(measure, goalMeasure(tet, x));
   return measure;
 }
 

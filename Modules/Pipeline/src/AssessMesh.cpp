@@ -6,7 +6,7 @@
 #include "WorstElements.h"
 #include "sinew/MeshIO/VtuFile.h"
 #include "sinew/Pipeline/FileNames.h"
-#include "sinew/Pipeline/SelectTissues.h"
+#include "sinew/Segmentation/SelectTissues.h"
 
 #include <algorithm>
 #include <stdexcept>

@@ -170,7 +170,6 @@ class TissueRun {
 
   /// Meshes once more with the smallest cubes that the plan allows, and takes what keeps the volume better.
   void refineThinParts(Attempt& attempt) {
-    constexpr double kBytesPerTet = 400;
     // Thin parts are sheets: their tets grow with the square of the refinement.
     const double finerBy = attempt.plan.sizes.smallest / attempt.plan.thinnest;
     const double memory = kBytesPerTet * static_cast<double>(attempt.mesh.tets.size()) * finerBy * finerBy;

@@ -6,7 +6,7 @@
 #include "TissueCost.h"
 #include "sinew/Pipeline/FileNames.h"
 #include "sinew/Pipeline/Memory.h"
-#include "sinew/Pipeline/SelectTissues.h"
+#include "sinew/Segmentation/SelectTissues.h"
 
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>

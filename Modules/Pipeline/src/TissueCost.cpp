@@ -1,5 +1,7 @@
 #include "TissueCost.h"
 
+#include "sinew/Mesher/GenerateTetMesh.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,10 +10,9 @@ namespace {
 
 // A staircase has 1.5 times the area of the smooth surface behind it, over all directions.
 constexpr double kStaircaseArea = 1.5;
-// As estimateMemory of the mesher: 400 bytes for each of 60 tets at the surface, of 12 inside.
-constexpr double kBytesPerSurfaceCube =
-    24000;  // lattice, candidate and mesh, per cube face of smooth surface
-constexpr double kBytesPerInnerCube = 4800;
+// As estimateMemory of the mesher has it: so many tets per cube face of smooth surface, and per cube inside.
+constexpr double kBytesPerSurfaceCube = 60 * kBytesPerTet;
+constexpr double kBytesPerInnerCube = 12 * kBytesPerTet;
 constexpr double kBytesPerVoxel = 12;      // of the crop and of the level set's grid: masks and fields
 constexpr double kBytesPerBandVoxel = 20;  // grid, bricks, march
 constexpr double kWorkPerVoxel = 0.005;    // of the work of one surface cube

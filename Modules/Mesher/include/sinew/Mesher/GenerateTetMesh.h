@@ -17,9 +17,10 @@ struct GenerateTetMeshOptions {
   /// Smallest cube size that thickness, and down to phi.resolution() also curvature and tolerance, may ask
   /// for, mm; 0: phi.resolution(). What is above edgeLength counts as edgeLength.
   double minEdgeLength = 0;
-  double curvature = 1.0;  ///< refine where cube size * (|k1| + |k2|) exceeds this; 0: nowhere, nor thin parts
-  double tolerance = 0;    ///< refine where an edge would leave the surface by more, mm; 0 switches it off
-  int levels = 0;          ///< largest number of lattice levels; 0: as many as the sizes ask for
+  double curvature =
+      1.0;               ///< refine where cube size * (|k1| + |k2|) exceeds this; 0: nowhere, nor thin parts
+  double tolerance = 0;  ///< refine where an edge would leave the surface by more, mm; 0 switches it off
+  int levels = 0;        ///< largest number of lattice levels; 0: as many as the sizes ask for
   std::int32_t label = 1;  ///< written to TetMesh::labels
   std::function<void(std::string_view stage, double fraction)>
       progress;  ///< called from one thread; may throw to stop
@@ -44,10 +45,14 @@ struct GenerateTetMeshReport {
 /// Meshes phi < 0: lattice, red-green hierarchy, candidate, compression (Teran et al. 2005).
 /// The result is the same bits for any number of threads. A shape too small for the lattice gives a mesh
 /// without tets.
-/// @throws std::invalid_argument on options out of range; std::runtime_error when no mesh under T1-T3 was
-/// found.
+/// @throws std::invalid_argument on options out of range; std::runtime_error when boundary nodes cannot reach
+/// the surface.
 TetMesh generateTetMesh(const SignedDistance& phi, const GenerateTetMeshOptions& options,
                         GenerateTetMeshReport* report = nullptr);
+
+/// Memory that generateTetMesh takes for every tet of its result, bits of the lattice included; measured at
+/// the peak of the compression.
+inline constexpr double kBytesPerTet = 400;
 
 /// A rough upper estimate of the memory that generateTetMesh takes, bytes. Cost: O(bounds / maxEdgeLength^3).
 double estimateMemory(const SignedDistance& phi, const GenerateTetMeshOptions& options);

@@ -1,4 +1,4 @@
-#include "sinew/Pipeline/SelectTissues.h"
+#include "sinew/Segmentation/SelectTissues.h"
 #include "sinew/TestSupport/Files.h"
 
 #include <gtest/gtest.h>
