@@ -1,0 +1,11 @@
+#pragma once
+
+#include "sinew/LevelSet/DenseLevelSet.h"
+
+namespace sinew {
+
+/// Makes phi a signed distance again, by fast marching from its zero set (see fastMarching): after CSG, or
+/// after anything else that bent it. No sample changes side. Cost: O(samples + band), in parallel.
+void redistance(DenseLevelSet& levelSet);
+
+}  // namespace sinew
