@@ -22,25 +22,34 @@ void checkTissue(const Segmentation& segmentation, const Tissue& tissue) {
 
 }  // namespace
 
+RasterAxes rasterAxes(const ImageGeometry& geometry, int lastAxis) {
+  RasterAxes axes;
+  axes.order = {(lastAxis == 0) ? 1 : 0, (lastAxis == 2) ? 1 : 2, lastAxis};
+  for (int a = 0; a < 3; ++a) axes.directions.col(a) = geometry.direction.col(axes.order[a]);
+  axes.lastReversed = axes.directions.determinant() < 0;
+  if (axes.lastReversed) axes.directions.col(2) *= -1;
+  return axes;
+}
+
 LabelCrop cropLabel(const Segmentation& segmentation, const Tissue& tissue, const Eigen::Vector3i& margin,
                     int lastAxis, const Eigen::Vector3i& block) {
   checkTissue(segmentation, tissue);
   if ((block.array() < 1).any()) throw std::invalid_argument("cropLabel: a cell has at least one voxel");
   const ImageGeometry& geometry = segmentation.geometry;
-  const Eigen::Vector3i axis((lastAxis == 0) ? 1 : 0, (lastAxis == 2) ? 1 : 2, lastAxis);
+  const RasterAxes axes = rasterAxes(geometry, lastAxis);
+  const Eigen::Vector3i& axis = axes.order;
 
   LabelCrop crop;
   Eigen::Matrix3d edges;  // one voxel step along each axis, mm
   Eigen::Vector3i first, step = Eigen::Vector3i::Ones(), extent, pad;
   for (int a = 0; a < 3; ++a) {
-    edges.col(a) = geometry.direction.col(axis[a]) * geometry.spacing[axis[a]];
+    edges.col(a) = axes.directions.col(a) * geometry.spacing[axis[a]];
     first[a] = tissue.box.lower[axis[a]];
     extent[a] = tissue.box.upper[axis[a]] - first[a];
     pad[a] = margin[axis[a]];
     crop.block[a] = block[axis[a]];
   }
-  if (edges.determinant() < 0) {
-    edges.col(2) *= -1;
+  if (axes.lastReversed) {
     first[2] += extent[2] - 1;
     step[2] = -1;
   }

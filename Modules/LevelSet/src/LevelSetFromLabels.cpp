@@ -1,5 +1,6 @@
 #include "sinew/LevelSet/LevelSetFromLabels.h"
 
+#include "GridPlan.h"
 #include "sinew/LevelSet/BandDistance.h"
 #include "sinew/LevelSet/FieldResampling.h"
 #include "sinew/LevelSet/FieldVolume.h"
@@ -12,7 +13,6 @@
 #include "sinew/LevelSet/SurfaceLevel.h"
 #include "sinew/LevelSet/VolumeKeepingIso.h"
 
-#include <Eigen/SVD>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -23,8 +23,6 @@
 namespace sinew {
 namespace {
 
-/// The volume may be corrected by an offset of this much; the march goes as far beyond the band.
-constexpr double kLargestOffsetVoxels = 0.5;
 /// Slices: distances are kept up to this many slice spacings, so that slopes down to 1:16 become ramps.
 constexpr double kSlopeSlices = 16;
 /// A tissue that vanishes is smoothed less and less; below this many voxels not at all.
@@ -43,49 +41,6 @@ void checkOptions(const LevelSetFromLabelsOptions& options) {
   require(options.thickSliceRatio >= 1, "thickSliceRatio must be at least 1", options.thickSliceRatio);
   require(options.gridSpacing >= 0 && std::isfinite(options.gridSpacing), "gridSpacing must not be negative",
           options.gridSpacing);
-}
-
-/// What the geometry and the options decide before a voxel is read.
-struct Plan {
-  double h = 1;                                      ///< spacing of the level set, mm
-  Eigen::Vector3i block = Eigen::Vector3i::Ones();   ///< voxels per cell, along the axes of the image
-  bool thick = false;                                ///< interpolate slices by shape
-  int lastAxis = 2;                                  ///< image axis across the slices
-  Eigen::Vector3i margin = Eigen::Vector3i::Zero();  ///< cells, along the axes of the image
-  double clear = 0;                                  ///< the narrowest margin, mm
-  double largestOffset = 0;                          ///< mm
-  double reach = 0;                                  ///< half width of the march, mm
-};
-
-/// Standard deviation along an axis, cells: a level set coarser than the voxels is smoothed to its own
-/// spacing. Blocks of n voxels have already smoothed by the variance (n^2 - 1)/12 of n points in a row.
-double sigmaAlong(double smoothingVoxels, double cell, int block, double h) {
-  const double voxel = cell / block;
-  const double voxels = smoothingVoxels * std::max(1.0, h / voxel);
-  return std::sqrt(std::max(0.0, voxels * voxels - (block * block - 1) / 12.0)) / block;
-}
-
-Plan makePlan(const ImageGeometry& geometry, const LevelSetFromLabelsOptions& options) {
-  Plan plan;
-  plan.h = options.gridSpacing > 0 ? options.gridSpacing : defaultGridSpacing(geometry);
-  for (int a = 0; a < 3; ++a)
-    plan.block[a] = std::max(1, static_cast<int>(plan.h / geometry.spacing[a] + 1e-6));
-  const Eigen::Vector3d spacing = geometry.spacing.cwiseProduct(plan.block.cast<double>());
-  int thickest = 2;
-  plan.thick = spacing.maxCoeff(&thickest) >= options.thickSliceRatio * spacing.minCoeff();
-  if (plan.thick) plan.lastAxis = thickest;
-  plan.largestOffset = kLargestOffsetVoxels * std::max(plan.h, defaultGridSpacing(geometry));
-  plan.reach = options.bandVoxels * plan.h + plan.largestOffset;
-  constexpr double kKernelSigmas = 3.5, kFreeCells = 2;
-  for (int a = 0; a < 3; ++a) {
-    const bool across = plan.thick && a == plan.lastAxis;
-    const double kernel =
-        across ? 0 : kKernelSigmas * sigmaAlong(options.smoothingVoxels, spacing[a], plan.block[a], plan.h);
-    plan.margin[a] = static_cast<int>(std::ceil(
-        std::max(kernel, 1.0) + kFreeCells * std::max(1.0, plan.h / spacing[a]) * (across ? 0.5 : 1)));
-  }
-  plan.clear = plan.margin.cast<double>().cwiseProduct(spacing).minCoeff();
-  return plan;
 }
 
 /// A field whose zero set is the tissue's surface, on the raster of a crop.
@@ -110,46 +65,6 @@ SurfaceField smoothedField(DenseField coverage, double cells, const Eigen::Vecto
   return field;
 }
 
-/// Where the samples of the level set's grid lie, and how they are taken from the crop's raster.
-struct GridPlacement {
-  Eigen::Isometry3d frame;
-  Eigen::Vector3i size;
-  Eigen::Vector3d first;  ///< of the aligned grid's first sample, mm from the raster's first
-  bool aligned = false;   ///< grid axes are raster axes
-};
-
-/// The rotation nearest to the raster's axes (polar decomposition); the raster is right-handed.
-Eigen::Matrix3d nearestRotation(const LabelCrop& crop) {
-  const Eigen::Matrix3d axes = crop.indexToPhysical.linear() * crop.spacing.cwiseInverse().asDiagonal();
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(axes, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return svd.matrixU() * svd.matrixV().transpose();
-}
-
-/// The grid holds the raster and, around the tissue, at least the reach of the march.
-GridPlacement placeGrid(const LabelCrop& crop, const Plan& plan) {
-  GridPlacement place;
-  const double h = plan.h;
-  const Eigen::Matrix3d rotation = nearestRotation(crop);
-  const Eigen::Matrix3d steps =
-      rotation.transpose() * crop.indexToPhysical.linear();  // raster steps in the frame
-  const Eigen::Vector3d last = (crop.coverage.size - Eigen::Vector3i::Ones()).cast<double>();
-  constexpr double kAlignedVoxels = 0.01;
-  const Eigen::Matrix3d slant = steps - Eigen::Matrix3d(crop.spacing.asDiagonal());
-  place.aligned = (slant * last.asDiagonal()).cwiseAbs().maxCoeff() < kAlignedVoxels * h;
-
-  Eigen::AlignedBox3d box(Eigen::Vector3d::Zero(), Eigen::Vector3d(last.cwiseProduct(crop.spacing)));
-  if (!place.aligned)
-    for (int corner = 0; corner < 8; ++corner)
-      box.extend(steps * last.cwiseProduct(Eigen::Vector3d(corner & 1, corner >> 1 & 1, corner >> 2)));
-  const double around = std::ceil(std::max(0.0, plan.reach - plan.clear) / h + 1) * h;
-  box = {box.min().array() - around, box.max().array() + around};
-  for (int a = 0; a < 3; ++a) place.size[a] = static_cast<int>(std::floor(box.sizes()[a] / h + 1e-6)) + 1;
-  place.first = box.min();
-  place.frame.linear() = rotation;
-  place.frame.translation() = crop.indexToPhysical.translation() + rotation * box.min();
-  return place;
-}
-
 /// Spacing that is equal enough to be taken for the grid's own: less than a hundredth of a voxel over the
 /// raster.
 bool sameSpacing(double spacing, double h, int samples) { return std::abs(spacing / h - 1) * samples < 0.01; }
@@ -169,7 +84,7 @@ std::vector<double> planes(double spacing, double h, double first, int count, in
 
 /// The field on the grid of the level set.
 DenseField fieldOnGrid(DenseField field, const LabelCrop& crop, const GridPlacement& place,
-                       const Plan& plan) {
+                       const GridPlan& plan) {
   const Eigen::Vector3d& spacing = crop.spacing;
   if (plan.thick) {
     sliceDistances(field, spacing.head<2>(), kSlopeSlices * spacing.z());
@@ -220,7 +135,7 @@ struct TissueField {
 };
 
 /// A tissue that smoothing would wipe out is smoothed less and less.
-TissueField tissueField(const Segmentation& segmentation, const Tissue& tissue, const Plan& plan,
+TissueField tissueField(const Segmentation& segmentation, const Tissue& tissue, const GridPlan& plan,
                         double smoothing) {
   LabelCrop crop = cropLabel(segmentation, tissue, plan.margin, plan.lastAxis, plan.block);
   const GridPlacement place = placeGrid(crop, plan);
@@ -263,7 +178,7 @@ DenseLevelSet denseLevelSetFromLabels(const Segmentation& segmentation, const Ti
                                       const LevelSetFromLabelsOptions& options,
                                       LevelSetFromLabelsReport* report) {
   checkOptions(options);
-  const Plan plan = makePlan(segmentation.geometry, options);
+  const GridPlan plan = planGrid(segmentation.geometry, options);
   TissueField field = tissueField(segmentation, tissue, plan, options.smoothingVoxels);
 
   const Eigen::Vector3d spacing = Eigen::Vector3d::Constant(plan.h);

@@ -15,6 +15,14 @@ struct LabelCrop {
   Eigen::Affine3d indexToPhysical;  ///< raster index to LPS mm; always right-handed
 };
 
+/// How the axes of a crop's raster run through the image.
+struct RasterAxes {
+  Eigen::Vector3i order;       ///< image axis of each raster axis: the last one given, the others in their order
+  Eigen::Matrix3d directions;  ///< columns: unit vectors of the raster axes, LPS; right-handed
+  bool lastReversed = false;   ///< the last axis runs against the image's
+};
+RasterAxes rasterAxes(const ImageGeometry& geometry, int lastAxis);
+
 /// Cuts a tissue out. The image axis `lastAxis` becomes the raster's last one, the other two keep their
 /// order; where that makes a left-handed raster, the last axis is read backwards. Beyond the image there is
 /// background.

@@ -13,6 +13,7 @@ struct LevelSetFromLabelsOptions {
   /// grid is coarser than these.
   double thickSliceRatio = 1.8;
   double gridSpacing = 0;  ///< mm; 0: the smallest image spacing, but not below half a voxel (cube root)
+  bool onCommonLattice = false;  ///< samples on commonLattice of the image, so that tissues can be combined
 };
 
 /// What the conversion did to the tissue.
