@@ -57,7 +57,9 @@ TEST(SampleLattice, HoldsEveryTissueOfAScan) {
             balls, tissue, {.gridSpacing = spacing, .onCommonLattice = true}, &report);
         EXPECT_TRUE(firstSampleOn(lattice, ball)) << tissue.name;
         // The offset that keeps the volume ends at 1e-5 of it, or half a voxel away.
-        if (spacing < 1) EXPECT_NEAR(report.levelSetVolume / report.labelVolume, 1, 1e-3) << tissue.name;
+        if (spacing < 1) {
+          EXPECT_NEAR(report.levelSetVolume / report.labelVolume, 1, 1e-3) << tissue.name;
+        }
       }
     }
   }
