@@ -4,6 +4,7 @@ find_package(TBB REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(ISAL REQUIRED)
 find_package(nlohmann_json REQUIRED)
+find_package(Qhull REQUIRED)
 set(CMAKE_MESSAGE_LOG_LEVEL WARNING)  # notices of Imath and gdcm about parts that nobody needs
 find_package(OpenVDB 10 REQUIRED)
 find_package(ITK 5.2 REQUIRED COMPONENTS ITKCommon ITKIOImageBase ITKIONRRD ITKIOMeta ITKIONIFTI)

@@ -11,17 +11,19 @@ set(below_Applications ${modules})
 
 # Foreign libraries: what their includes look like, and the files that may have them. Tests and benchmarks may use what
 # the module's src/ may. LevelSetGrid.h counts as OpenVDB, because it brings all of it.
-set(libraries ITK VTK OpenVDB CLI11 json)
+set(libraries ITK VTK OpenVDB CLI11 json Qhull)
 set(include_ITK "^itk")
 set(include_VTK "^vtk")
 set(include_OpenVDB "^(openvdb|Imath|boost)/|^sinew/LevelSet/LevelSetGrid\\.h$")
 set(include_CLI11 "^CLI/")
 set(include_json "^nlohmann/")
+set(include_Qhull "^libqhull")
 set(allowed_ITK "^Modules/Segmentation/(src|test|bench)/")
 set(allowed_VTK "^Modules/MeshIO/(src|test|bench)/")
 set(allowed_OpenVDB "^Modules/LevelSet/((src|test|bench)/|include/sinew/LevelSet/LevelSetGrid\\.h$)")
 set(allowed_CLI11 "^Applications/")
 set(allowed_json "^(Modules/Pipeline/(src|test|bench)|Applications)/")
+set(allowed_Qhull "^Modules/LevelSet/src/ConvexHull\\.cpp$")
 
 # The Mesher stands alone: the standard library has no slash in its names (but sys/), and no other folder is its own.
 set(mesher_includes "^(sinew/(Mesher|TestSupport)|Eigen|tbb|gtest|benchmark|sys)/|^[^/]+$")

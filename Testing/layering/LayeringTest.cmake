@@ -11,6 +11,8 @@ set(seeds
   "Modules/LevelSet/src/B.cpp|<openvdb/openvdb.h>|fine"
   "Modules/LevelSet/src/C.cpp|<vtkPoints.h>|bad"
   "Modules/LevelSet/src/D.cpp|\"sinew/Mesher/TetMesh.h\"|bad"
+  "Modules/LevelSet/src/ConvexHull.cpp|<libqhull_r/libqhull_r.h>|fine"
+  "Modules/LevelSet/src/E.cpp|<libqhull_r/libqhull_r.h>|bad"
   "Modules/LevelSet/include/sinew/LevelSet/LevelSetGrid.h|<openvdb/openvdb.h>|fine"
   "Modules/LevelSet/include/sinew/LevelSet/LevelSet.h|<openvdb/openvdb.h>|bad"
   "Modules/LevelSet/include/sinew/LevelSet/B.h|\"sinew/LevelSet/LevelSetGrid.h\"|bad"
