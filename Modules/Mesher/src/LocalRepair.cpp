@@ -10,7 +10,7 @@
 #include <iterator>
 #include <map>
 #include <optional>
-#include <ranges>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -216,7 +216,8 @@ class LocalRepair {
     }
     std::ranges::sort(found);
     Nodes nodes;
-    for (const auto& [beside, cost, v] : found | std::views::take(kMostOuter)) nodes.push_back(v);
+    for (const auto& [beside, cost, v] : std::span(found).first(std::min(kMostOuter, found.size())))
+      nodes.push_back(v);
     return nodes;
   }
 
@@ -233,7 +234,8 @@ class LocalRepair {
     std::ranges::sort(found);
     found.erase(std::unique(found.begin(), found.end()), found.end());
     Nodes nodes;
-    for (const auto& [depth, v] : found | std::views::take(kMostInner)) nodes.push_back(v);
+    for (const auto& [depth, v] : std::span(found).first(std::min(kMostInner, found.size())))
+      nodes.push_back(v);
     return nodes;
   }
 

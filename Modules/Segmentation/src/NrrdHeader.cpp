@@ -84,30 +84,57 @@ std::vector<std::int64_t> sizes(const fs::path& file, const NrrdFields& header) 
   return result;
 }
 
-/// The types of values and NRRD's names for them.
+/// NRRD's names for the types of values.
 ValueType valueType(const fs::path& file, const NrrdFields& header) {
   struct Type {
+    std::string_view name;
     ValueType type;
-    std::initializer_list<std::string_view> names;
   };
-  static const std::array types{
-      Type{ValueType::Int8, {"signed char", "int8", "int8_t"}},
-      Type{ValueType::UInt8, {"uchar", "unsigned char", "uint8", "uint8_t"}},
-      Type{ValueType::Int16, {"short", "short int", "signed short", "signed short int", "int16", "int16_t"}},
-      Type{ValueType::UInt16, {"ushort", "unsigned short", "unsigned short int", "uint16", "uint16_t"}},
-      Type{ValueType::Int32, {"int", "signed int", "int32", "int32_t"}},
-      Type{ValueType::UInt32, {"uint", "unsigned int", "uint32", "uint32_t"}},
-      Type{ValueType::Int64,
-           {"longlong", "long long", "long long int", "signed long long", "signed long long int", "int64",
-            "int64_t"}},
-      Type{ValueType::UInt64,
-           {"ulonglong", "unsigned long long", "unsigned long long int", "uint64", "uint64_t"}},
-      Type{ValueType::Float32, {"float"}},
-      Type{ValueType::Float64, {"double"}},
+  static constexpr std::array types{
+      Type{"signed char", ValueType::Int8},
+      Type{"int8", ValueType::Int8},
+      Type{"int8_t", ValueType::Int8},
+      Type{"uchar", ValueType::UInt8},
+      Type{"unsigned char", ValueType::UInt8},
+      Type{"uint8", ValueType::UInt8},
+      Type{"uint8_t", ValueType::UInt8},
+      Type{"short", ValueType::Int16},
+      Type{"short int", ValueType::Int16},
+      Type{"signed short", ValueType::Int16},
+      Type{"signed short int", ValueType::Int16},
+      Type{"int16", ValueType::Int16},
+      Type{"int16_t", ValueType::Int16},
+      Type{"ushort", ValueType::UInt16},
+      Type{"unsigned short", ValueType::UInt16},
+      Type{"unsigned short int", ValueType::UInt16},
+      Type{"uint16", ValueType::UInt16},
+      Type{"uint16_t", ValueType::UInt16},
+      Type{"int", ValueType::Int32},
+      Type{"signed int", ValueType::Int32},
+      Type{"int32", ValueType::Int32},
+      Type{"int32_t", ValueType::Int32},
+      Type{"uint", ValueType::UInt32},
+      Type{"unsigned int", ValueType::UInt32},
+      Type{"uint32", ValueType::UInt32},
+      Type{"uint32_t", ValueType::UInt32},
+      Type{"longlong", ValueType::Int64},
+      Type{"long long", ValueType::Int64},
+      Type{"long long int", ValueType::Int64},
+      Type{"signed long long", ValueType::Int64},
+      Type{"signed long long int", ValueType::Int64},
+      Type{"int64", ValueType::Int64},
+      Type{"int64_t", ValueType::Int64},
+      Type{"ulonglong", ValueType::UInt64},
+      Type{"unsigned long long", ValueType::UInt64},
+      Type{"unsigned long long int", ValueType::UInt64},
+      Type{"uint64", ValueType::UInt64},
+      Type{"uint64_t", ValueType::UInt64},
+      Type{"float", ValueType::Float32},
+      Type{"double", ValueType::Float64},
   };
   const std::string name = text::lower(field(header, {"type"}));
-  for (const auto& [type, names] : types)
-    if (std::ranges::find(names, name) != names.end()) return type;
+  const auto found = std::ranges::find(types, name, &Type::name);
+  if (found != types.end()) return found->type;
   text::refuse(file, "its NRRD type is `" + text::printable(name) + "`; save it with an integer type");
 }
 

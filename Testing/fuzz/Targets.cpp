@@ -1,0 +1,21 @@
+#include "Targets.h"
+
+#include <array>
+
+namespace sinew::fuzz {
+namespace {
+
+constexpr std::array kTargets{
+    Target{"segmentation", &runSegmentation},
+    Target{"label-table", &runLabelTable},
+    Target{"obj", [](std::string_view bytes) { return runTriangleMesh(bytes, ".obj"); }},
+    Target{"stl", [](std::string_view bytes) { return runTriangleMesh(bytes, ".stl"); }},
+    Target{"vtp", [](std::string_view bytes) { return runTriangleMesh(bytes, ".vtp"); }},
+    Target{"vtu", &runTetMesh},
+};
+
+}  // namespace
+
+std::span<const Target> targets() { return kTargets; }
+
+}  // namespace sinew::fuzz
