@@ -45,8 +45,10 @@ class BucketQueue {
 /// One side after the other would give the same: a sample only looks at samples of its own sign.
 class March {
  public:
-  March(DenseField& phi, const Eigen::Vector3d& spacing, double band)
+  March(DenseField& phi, const Eigen::Vector3d& spacing, double band, const BandMarchOptions& options)
       : phi_(phi.values.data()),
+        samples_(phi.values.size()),
+        options_(options),
         band_(static_cast<float>(band)),
         stride_{1, phi.size.x(), std::ptrdiff_t{phi.size.x()} * phi.size.y()},
         queue_(spacing.minCoeff() / kBucketsPerVoxel) {
@@ -57,9 +59,11 @@ class March {
   }
 
   void run(const std::vector<std::uint32_t>& seeds) {
+    if (options_.keepWithin > 0) kept_.resize(samples_);
     for (const std::uint32_t seed : seeds) {
+      if (!kept_.empty()) kept_[seed] = 1;
       const float distance = std::abs(phi_[seed]);
-      farthestSeed_ = std::max(farthestSeed_, distance);
+      if (options_.fixBeside) farthestFixed_ = std::max(farthestFixed_, distance);
       queue_.push(distance, seed);
     }
     while (const std::optional<BucketQueue::Entry> next = queue_.pop())
@@ -80,14 +84,16 @@ class March {
   void relax(std::ptrdiff_t at, bool inside, float reached) {
     const float known = std::abs(phi_[at]);
     if (!(known > reached) || std::signbit(phi_[at]) != inside) return;  // also kNowhere
-    if (known <= farthestSeed_ && isSeed(at)) return;
+    if (known <= farthestFixed_ && isBeside(at)) return;
     const float distance = upwindSolution(at, inside, reached);
     if (distance >= known || distance > band_) return;
+    if (!kept_.empty() && kept_[static_cast<std::size_t>(at)] != 0 && distance > known - options_.keepWithin)
+      return;
     phi_[at] = inside ? -distance : distance;
     queue_.push(distance, static_cast<std::uint32_t>(at));
   }
 
-  bool isSeed(std::ptrdiff_t at) const {
+  bool isBeside(std::ptrdiff_t at) const {
     const auto across = [&](float other) {
       return !std::isnan(other) && std::signbit(other) != std::signbit(phi_[at]);
     };
@@ -113,6 +119,7 @@ class March {
     const float before = passed(at - stride, inside, reached), after = passed(at + stride, inside, reached);
     const float nearest = std::min(before, after);
     if (nearest == kUnreached) return {kUnreached, kUnreached, 0};
+    if (options_.order == 1) return {nearest, nearest, inverseSquare_[axis]};
     const float second = passed(before <= after ? at - 2 * stride : at + 2 * stride, inside, reached);
     // d phi/dx = (3 phi - 4 phi_1 + phi_2) / (2h) = (3/(2h)) (phi - (4 phi_1 - phi_2)/3)
     if (second <= nearest) return {nearest, (4 * nearest - second) / 3, 2.25F * inverseSquare_[axis]};
@@ -143,8 +150,11 @@ class March {
   }
 
   float* phi_;
+  std::size_t samples_;
+  std::vector<std::uint8_t> kept_;  ///< 1 at the seeds; empty where none is kept
+  BandMarchOptions options_;
   float band_;
-  float farthestSeed_ = 0;
+  float farthestFixed_ = -1;
   std::array<float, 3> inverseSquare_;
   std::array<std::ptrdiff_t, 3> stride_;
   BucketQueue queue_;
@@ -153,8 +163,8 @@ class March {
 }  // namespace
 
 void bandMarch(DenseField& phi, const std::vector<std::uint32_t>& seeds, const Eigen::Vector3d& spacing,
-               double band) {
-  March(phi, spacing, band).run(seeds);
+               double band, const BandMarchOptions& options) {
+  March(phi, spacing, band, options).run(seeds);
 }
 
 }  // namespace sinew

@@ -46,11 +46,11 @@ TricubicSample atSample(const DenseField& phi, const Eigen::Vector3i& at) {
 
 /// Distance to the closest point of the tricubic zero set by Chopp's two-part Newton step, x in index units:
 ///     x += -P grad P / |grad P|^2 + (I - n n^T)(x0 - x),  n = grad P / |grad P|
-/// Empty when it does not settle within two samples of x0.
+/// Empty when it does not settle within `reach` samples of x0.
 std::optional<double> closestPointDistance(const DenseField& phi, const Eigen::Vector3i& at,
-                                           const Eigen::Vector3d& spacing) {
+                                           const Eigen::Vector3d& spacing, double reach) {
   constexpr int kSteps = 12;
-  constexpr double kSettled = 1e-4, kReach = 2;  // voxels
+  constexpr double kSettled = 1e-4;  // voxels
   const Eigen::Vector3d x0 = at.cast<double>();
   Eigen::Vector3d x = x0;
   TricubicSample p = atSample(phi, at);
@@ -63,7 +63,7 @@ std::optional<double> closestPointDistance(const DenseField& phi, const Eigen::V
     const Eigen::Vector3d tangent = back - (back.dot(gradient) / squared) * gradient;
     const Eigen::Vector3d move = (tangent - normal).cwiseQuotient(spacing);
     x += move;
-    if ((x - x0).cwiseAbs().maxCoeff() > kReach) return std::nullopt;
+    if ((x - x0).cwiseAbs().maxCoeff() > reach) return std::nullopt;
     if (move.cwiseAbs().maxCoeff() < kSettled) return (x - x0).cwiseProduct(spacing).norm();
     p = tricubicSample(phi, x);
   }
@@ -84,30 +84,67 @@ void markBesideSurface(const DenseField& phi, int j, int k, std::vector<std::uin
 }
 
 /// The crossing bounds the distance from above up to the curvature within a voxel: a closest point much
-/// farther away belongs to another sheet or to a stray root.
-double seedDistance(const DenseField& phi, const Eigen::Vector3i& at, const Eigen::Vector3d& spacing) {
+/// farther away belongs to another sheet or to a stray root. Nothing when there is neither.
+std::optional<double> seedDistance(const DenseField& phi, const Eigen::Vector3i& at,
+                                   const Eigen::Vector3d& spacing, int layers) {
   constexpr double kBeyondCrossing = 1.5;
   const double crossing = crossingDistance(phi, at, spacing);
-  const double closest = closestPointDistance(phi, at, spacing).value_or(crossing);
-  return closest > kBeyondCrossing * crossing ? crossing : closest;
+  const std::optional<double> closest = closestPointDistance(phi, at, spacing, layers + 1);
+  if (std::isinf(crossing)) return closest;
+  return closest && !(*closest > kBeyondCrossing * crossing) ? *closest : crossing;
 }
 
-}  // namespace
+using SliceSeeds = std::vector<SurfaceSeed>;
 
-std::vector<std::vector<SurfaceSeed>> surfaceSeeds(const DenseField& phi, const Eigen::Vector3d& spacing) {
-  const double leastInside = 1e-6 * spacing.minCoeff();  // zero would be outside
-  std::vector<std::vector<SurfaceSeed>> seeds(static_cast<std::size_t>(phi.size.z()));
+/// The samples beside the surface, distances left open.
+std::vector<SliceSeeds> besideSurface(const DenseField& phi) {
+  std::vector<SliceSeeds> seeds(static_cast<std::size_t>(phi.size.z()));
   tbb::parallel_for(0, phi.size.z(), [&](int k) {
     std::vector<std::uint8_t> beside(static_cast<std::size_t>(phi.size.x()));
     for (int j = 0; j < phi.size.y(); ++j) {
       markBesideSurface(phi, j, k, beside);
-      for (auto mark = beside.begin(); (mark = std::find(mark, beside.end(), 1)) != beside.end(); ++mark) {
-        const int i = static_cast<int>(mark - beside.begin());
-        const double distance = seedDistance(phi, {i, j, k}, spacing);
-        const double value = phi(i, j, k) < 0 ? -std::max(distance, leastInside) : distance;
-        seeds[static_cast<std::size_t>(k)].push_back({i, j, static_cast<float>(value)});
-      }
+      for (auto mark = beside.begin(); (mark = std::find(mark, beside.end(), 1)) != beside.end(); ++mark)
+        seeds[static_cast<std::size_t>(k)].push_back({static_cast<int>(mark - beside.begin()), j, 0});
     }
+  });
+  return seeds;
+}
+
+/// Those and the samples within `steps` along the axes.
+std::vector<SliceSeeds> widened(const std::vector<SliceSeeds>& seeds, const Eigen::Vector3i& size,
+                                int steps) {
+  std::vector<SliceSeeds> result(seeds.size());
+  tbb::parallel_for(0, size.z(), [&](int k) {
+    DenseMask near({size.x(), size.y(), 1});
+    for (int from = std::max(k - steps, 0); from <= std::min(k + steps, size.z() - 1); ++from)
+      for (const SurfaceSeed& seed : seeds[static_cast<std::size_t>(from)])
+        for (int dj = -steps; dj <= steps; ++dj)
+          for (int di = -steps; di <= steps; ++di) {
+            const int i = seed.i + di, j = seed.j + dj;
+            if (std::abs(di) + std::abs(dj) + std::abs(k - from) > steps) continue;
+            if (i >= 0 && i < size.x() && j >= 0 && j < size.y()) near(i, j, 0) = 1;
+          }
+    for (int j = 0; j < size.y(); ++j)
+      for (int i = 0; i < size.x(); ++i)
+        if (near(i, j, 0) != 0) result[static_cast<std::size_t>(k)].push_back({i, j, 0});
+  });
+  return result;
+}
+
+}  // namespace
+
+std::vector<SliceSeeds> surfaceSeeds(const DenseField& phi, const Eigen::Vector3d& spacing, int layers) {
+  const double leastInside = 1e-6 * spacing.minCoeff();  // zero would be outside
+  std::vector<SliceSeeds> seeds = besideSurface(phi);
+  if (layers > 1) seeds = widened(seeds, phi.size, layers - 1);
+  tbb::parallel_for(0, phi.size.z(), [&](int k) {
+    std::erase_if(seeds[static_cast<std::size_t>(k)], [&](SurfaceSeed& seed) {
+      const std::optional<double> distance = seedDistance(phi, {seed.i, seed.j, k}, spacing, layers);
+      if (!distance) return true;
+      const double value = phi(seed.i, seed.j, k) < 0 ? -std::max(*distance, leastInside) : *distance;
+      seed.distance = static_cast<float>(value);
+      return false;
+    });
   });
   return seeds;
 }

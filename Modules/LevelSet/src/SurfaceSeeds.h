@@ -4,7 +4,7 @@
 
 namespace sinew {
 
-/// A sample beside the surface and its signed distance, mm.
+/// A sample near the surface and its signed distance, mm.
 struct SurfaceSeed {
   int i, j;
   float distance;  ///< never zero inside
@@ -13,6 +13,9 @@ struct SurfaceSeed {
 /// The samples that have a neighbour (of six) on the other side, slice by slice in raster order, with the
 /// distance to the closest point of the tricubic interpolant's zero set. Cost: O(samples), slices in
 /// parallel.  Source: Chopp 2001.
-std::vector<std::vector<SurfaceSeed>> surfaceSeeds(const DenseField& phi, const Eigen::Vector3d& spacing);
+/// @param layers  more than 1: also the samples that are so many steps along the axes from the other side,
+///                where a closest point is found
+std::vector<std::vector<SurfaceSeed>> surfaceSeeds(const DenseField& phi, const Eigen::Vector3d& spacing,
+                                                   int layers = 1);
 
 }  // namespace sinew

@@ -1,7 +1,5 @@
 #include "TiledMarch.h"
 
-#include "BandMarch.h"
-
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -20,8 +18,8 @@ constexpr int kTile = 96;
 class TiledMarch {
  public:
   TiledMarch(DenseField& phi, const std::vector<std::vector<SurfaceSeed>>& seeds,
-             const Eigen::Vector3d& spacing, double band)
-      : phi_(phi), seeds_(seeds), spacing_(spacing), band_(band) {
+             const Eigen::Vector3d& spacing, double band, const BandMarchOptions& options)
+      : phi_(phi), seeds_(seeds), spacing_(spacing), band_(band), options_(options) {
     constexpr int kMargin = 2;  // of the differences at the halo's edge
     halo_ = (band / spacing.array()).ceil().cast<int>() + kMargin;
     tiles_ = (phi.size.array() + kTile - 1) / kTile;
@@ -57,7 +55,7 @@ class TiledMarch {
     if (!hasSeeds(tile))
       return finish(tile, [&](int i, int j, int k) { return load(i, j, k) < 0 ? -kUnreached : kUnreached; });
     fill(tile);
-    bandMarch(tile.phi, tile.seeds, spacing_, band_);
+    bandMarch(tile.phi, tile.seeds, spacing_, band_, options_);
     const Eigen::Vector3i shift = Eigen::Vector3i::Constant(kBorder) - tile.lower;
     finish(tile, [&](int i, int j, int k) { return tile.phi(i + shift.x(), j + shift.y(), k + shift.z()); });
   }
@@ -110,14 +108,15 @@ class TiledMarch {
   const std::vector<std::vector<SurfaceSeed>>& seeds_;
   Eigen::Vector3d spacing_;
   double band_;
+  BandMarchOptions options_;
   Eigen::Vector3i halo_, tiles_;
 };
 
 }  // namespace
 
 void tiledMarch(DenseField& phi, const std::vector<std::vector<SurfaceSeed>>& seeds,
-                const Eigen::Vector3d& spacing, double band) {
-  TiledMarch(phi, seeds, spacing, band).run();
+                const Eigen::Vector3d& spacing, double band, const BandMarchOptions& options) {
+  TiledMarch(phi, seeds, spacing, band, options).run();
 }
 
 }  // namespace sinew

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "BandMarch.h"
 #include "SurfaceSeeds.h"
 
 namespace sinew {
@@ -10,6 +11,6 @@ namespace sinew {
 /// @param seeds  samples of known distance, slice by slice in raster order
 /// Cost: O(samples + band), tiles in parallel; the same bits for any number of threads.
 void tiledMarch(DenseField& phi, const std::vector<std::vector<SurfaceSeed>>& seeds,
-                const Eigen::Vector3d& spacing, double band);
+                const Eigen::Vector3d& spacing, double band, const BandMarchOptions& options = {});
 
 }  // namespace sinew
