@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <tuple>
@@ -77,8 +78,9 @@ void marchFromSeeds(DenseField& phi, const std::vector<MarchSeed>& seeds, const 
                     double band, const FastMarchingOptions& options) {
   checkArguments("marchFromSeeds", spacing, band, options);
   const double leastInside = 1e-6 * spacing.minCoeff();  // zero would be outside
-  tiledMarch(phi, sliceBySlice(phi, seeds, leastInside), spacing, band,
-             {.order = options.order, .fixBeside = false});
+  tiledMarch(
+      phi, sliceBySlice(phi, seeds, leastInside), spacing, band,
+      {.order = options.order, .fixBeside = false, .keepWithin = std::numeric_limits<double>::infinity()});
 }
 
 }  // namespace sinew

@@ -15,7 +15,11 @@ namespace sinew {
 namespace {
 
 /// Half width of the band that moves, and of the distance around it, samples.
-constexpr float kMoving = 3, kAround = 4;
+constexpr float kMoving = 4, kAround = 6;
+/// phi may start with less.
+constexpr float kLeastKnown = 3;
+/// b t, samples^2: a ball of 200 samples is gone by then.
+constexpr double kLongest = 1e4;
 /// Below this |grad phi|^2 the gradient is no normal: beside a skeleton it is a mean over both sides.
 constexpr float kFlat = 0.01F;
 
@@ -38,9 +42,19 @@ float skeletonRate(const Derivatives& d) {
   return bends.sum() - most;
 }
 
+/// Rates and squared slopes at samples first..last-1 of a row, none of them at its ends.
+void curvatureRates(const RowStencil& rows, int first, int last, float* rate, float* slope) {
+  for (int i = first; i < last; ++i) {
+    const Derivatives d = derivatives(rows, i - 1, i, i + 1);
+    const float squared = squaredSlope(d);
+    slope[i] = squared;
+    rate[i] = curvatureRate(d, std::max(squared, kFlat));
+  }
+}
+
 class Motion {
  public:
-  explicit Motion(DenseField& phi) : phi_(phi), slices_(bandRuns(phi, kMoving)) {
+  Motion(DenseField& phi, float within) : phi_(phi), slices_(bandRuns(phi, within)) {
     rates_.resize(slices_.size());
     for (std::size_t k = 0; k < slices_.size(); ++k) rates_[k].resize(slices_[k].samples);
   }
@@ -55,21 +69,22 @@ class Motion {
   void findRates(int k) {
     const BandSlice& slice = slices_[static_cast<std::size_t>(k)];
     float* rates = rates_[static_cast<std::size_t>(k)].data();
-    for (const BandRun& run : slice.runs) findRates(RowStencil(phi_, run.j, k), run, rates + run.offset);
+    std::vector<float> slopes(static_cast<std::size_t>(phi_.size.x()));
+    for (const BandRun& run : slice.runs)
+      findRates(RowStencil(phi_, run.j, k), run, rates + run.offset, slopes);
   }
 
-  void findRates(const RowStencil& rows, const BandRun& run, float* rates) const {
+  void findRates(const RowStencil& rows, const BandRun& run, float* rates, std::vector<float>& slopes) const {
     const int last = phi_.size.x() - 1;
-    const auto clamped = [&](int i) {
-      return derivatives(rows, std::max(i - 1, 0), i, std::min(i + 1, last));
-    };
-    const auto rate = [](const Derivatives& d) { return curvatureRate(d, std::max(squaredSlope(d), kFlat)); };
-    const int inner = std::max(run.first, 1), innerEnd = std::min(run.last, last);
-    for (int i = inner; i < innerEnd; ++i) rates[i - run.first] = rate(derivatives(rows, i - 1, i, i + 1));
-    if (run.first == 0) rates[0] = rate(clamped(0));
-    if (run.last == last + 1) rates[last - run.first] = rate(clamped(last));
-    for (int i = run.first; i < run.last; ++i)
-      if (const Derivatives d = clamped(i); squaredSlope(d) < kFlat) rates[i - run.first] = skeletonRate(d);
+    float *rate = rates - run.first, *slope = slopes.data();
+    curvatureRates(rows, std::max(run.first, 1), std::min(run.last, last), rate, slope);
+    for (int i = run.first; i < run.last; ++i) {
+      const bool border = i == 0 || i == last;
+      if (!border && slope[i] >= kFlat) continue;
+      const Derivatives d = derivatives(rows, std::max(i - 1, 0), i, std::min(i + 1, last));
+      const float squared = squaredSlope(d);
+      rate[i] = squared < kFlat ? skeletonRate(d) : curvatureRate(d, squared);
+    }
   }
 
   void advance(int k, float ratio) {
@@ -85,6 +100,12 @@ class Motion {
   std::vector<BandSlice> slices_;
   std::vector<std::vector<float>> rates_;
 };
+
+float largestMagnitude(const DenseField& phi) {
+  float largest = 0;
+  for (const float v : phi.values) largest = std::max(largest, std::abs(v));
+  return largest;
+}
 
 void scale(DenseField& phi, float factor) {
   tbb::parallel_for(0, phi.size.z(), [&](int k) {
@@ -102,6 +123,7 @@ void checkArguments(double spacing, double time, double band, const MeanCurvatur
   };
   require(spacing > 0 && std::isfinite(spacing), "spacing must be positive", spacing);
   require(time >= 0 && std::isfinite(time), "time must not be negative", time);
+  require(time <= kLongest * spacing * spacing, "time must not exceed 10000 spacing^2", time);
   require(band > 0, "band must be positive", band);
   require(options.cfl > 0 && options.cfl <= 1.0 / 6, "cfl must lie in (0, 1/6]", options.cfl);
   require(options.stepsPerRedistance >= 1, "stepsPerRedistance must be at least 1",
@@ -119,15 +141,25 @@ MeanCurvatureMotionReport meanCurvatureMotion(DenseField& phi, double spacing, d
   if (steps == 0 || phi.values.empty()) return report;
   const auto ratio = static_cast<float>(samplesSquared / steps);
   scale(phi, static_cast<float>(1 / spacing));
-  while (report.steps < steps) {
-    if (report.steps > 0) fastMarching(phi, Eigen::Vector3d::Ones(), kAround);
-    Motion motion(phi);
-    const int end = std::min(report.steps + options.stepsPerRedistance, steps);
-    for (; report.steps < end; ++report.steps) motion.step(ratio);
+  const auto redistance = [&](const Eigen::Vector3d& h, double width) {
+    fastMarching(phi, h, width, {.closestPointLayers = 2});
     ++report.redistances;
+  };
+  // What lies beyond the band that phi comes with is flat, and is not to be mistaken for skeleton.
+  float known = 0.999F * largestMagnitude(phi);
+  while (report.steps < steps) {
+    if (known < kLeastKnown) {
+      redistance(Eigen::Vector3d::Ones(), kAround);
+      known = kAround;
+    }
+    Motion motion(phi, std::min(kMoving, known));
+    const int now = std::min(options.stepsPerRedistance, steps - report.steps);
+    for (int step = 0; step < now; ++step) motion.step(ratio);
+    report.steps += now;
+    known = 0;
   }
   scale(phi, static_cast<float>(spacing));
-  fastMarching(phi, Eigen::Vector3d::Constant(spacing), band);
+  redistance(Eigen::Vector3d::Constant(spacing), band);
   return report;
 }
 

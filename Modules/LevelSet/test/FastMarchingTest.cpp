@@ -174,6 +174,97 @@ TEST(FastMarching, TilesDoNotShow) {
   EXPECT_LT(worst, 1e-3);
 }
 
+double box(const Vector3d& x) {
+  const Vector3d q = x.cwiseAbs() - Vector3d(7, 5, 6);
+  return q.cwiseMax(0).norm() + std::min(q.maxCoeff(), 0.0);
+}
+
+/// Mean error between 1 and 2.5 mm outside of a shape of half the size, when the samples nearer than 1 mm are
+/// given: there the distance is smooth.
+template <typename Function>
+double errorFromExactSeeds(double h, int order, const Function& shape) {
+  const auto exact = [&](const Vector3d& x) { return shape(2 * x) / 2; };
+  const Vector3d spacing = h * Vector3d(1, 1.25, 0.8), origin = Vector3d::Constant(-9) + 0.31 * spacing;
+  const Vector3i size = Vector3d::Constant(18).cwiseQuotient(spacing).cast<int>();
+  const DenseField truth = sampled(size, origin, spacing, exact);
+  std::vector<MarchSeed> seeds;
+  for (int k = 0; k < size.z(); ++k)
+    for (int j = 0; j < size.y(); ++j)
+      for (int i = 0; i < size.x(); ++i)
+        if (std::abs(truth(i, j, k)) < 1) seeds.push_back({{i, j, k}, std::abs(truth(i, j, k))});
+  DenseField phi = truth;
+  marchFromSeeds(phi, seeds, spacing, 3, {.order = order});
+  const auto beyondSeeds = [&](const Vector3d& x) { return exact(x) > 1 ? exact(x) : 1e9; };
+  return errorWithin(phi, origin, spacing, 2.5, beyondSeeds).mean;
+}
+
+TEST(FastMarching, OrderOneHalvesAndOrderTwoQuartersTheErrorAtHalfTheSpacing) {
+  for (const auto& shape : {sphere, torus, box}) {
+    const auto errors = [&](int order) {
+      return Vector3d(errorFromExactSeeds(0.8, order, shape), errorFromExactSeeds(0.4, order, shape),
+                      errorFromExactSeeds(0.2, order, shape));
+    };
+    const Vector3d first = errors(1), second = errors(2);
+    EXPECT_NEAR(first[1] / first[2], 2, 0.4) << first.transpose();
+    EXPECT_NEAR(second[1] / second[2], 4, 0.4) << second.transpose();
+    EXPECT_LT(second[2], 0.2 * first[2]) << first.transpose() << " and " << second.transpose();
+  }
+}
+
+TEST(FastMarching, LayersOfClosestPointsMakeTheDistanceNearTheSurfaceOfThirdOrder) {
+  const Vector3d one = Vector3d::Ones();
+  const auto meanError = [&](double radius, int layers) {
+    const auto ball = [&](const Vector3d& x) { return x.norm() - radius; };
+    const Vector3d origin = Vector3d::Constant(-radius - 5.7);
+    DenseField phi = sampled(Vector3i::Constant(static_cast<int>(2 * radius) + 12), origin, one, ball);
+    fastMarching(phi, one, 4, {.closestPointLayers = layers});
+    return errorWithin(phi, origin, one, 1, ball).mean;
+  };
+  // In samples, twice the radius is half the spacing: distance over spacing falls by 2^2 and 2^3 - 1 of these
+  // is spent on the ratio. The first step of a march from one layer is of first order.
+  EXPECT_GT(meanError(20, 1), 1e-3);
+  for (const int layers : {2, 3}) {
+    EXPECT_LT(meanError(20, layers), 3e-4) << layers;
+    EXPECT_GT(meanError(10, layers) / meanError(20, layers), 3.5) << layers;
+  }
+}
+
+TEST(FastMarching, ASeedGivesTheUnsignedDistanceToAPoint) {
+  const Vector3d spacing(0.5, 0.5, 1);
+  DenseField phi({41, 41, 21});
+  marchFromSeeds(phi, {{{20, 20, 10}, 3}, {{20, 20, 10}, 0.25}}, spacing, 6);
+  EXPECT_EQ(phi(20, 20, 10), 0.25F) << "of two seeds at one sample the nearest counts";
+  EXPECT_NEAR(phi(30, 20, 10), 5.25, 1e-5) << "along an axis differences are exact";
+  EXPECT_NEAR(phi(20, 20, 5), 5.25, 1e-5);
+  EXPECT_EQ(phi(40, 40, 20), 6.0F) << "the band";
+  const Error error = errorWithin(phi, Vector3d(-10, -10, -10), spacing, 4,
+                                  [](const Vector3d& x) { return x.norm() + 0.25; });
+  // A point source is the worst case: the first step of a diagonal is off by 1 - 1/sqrt 3 spacings.
+  EXPECT_LT(error.mean, 0.5);
+}
+
+TEST(FastMarching, SeedsKeepTheirDistanceAndDoNotReachAcross) {
+  DenseField phi({9, 3, 3}, 1.0F);
+  for (int k = 0; k < 3; ++k)
+    for (int j = 0; j < 3; ++j)
+      for (int i = 4; i < 9; ++i) phi(i, j, k) = -1;
+  marchFromSeeds(phi, {{{0, 1, 1}, 1}, {{2, 1, 1}, 5}}, Vector3d::Ones(), 8);
+  EXPECT_EQ(phi(2, 1, 1), 5) << "1 + 2 is less";
+  EXPECT_NEAR(phi(1, 1, 1), 2, 1e-6);
+  EXPECT_EQ(phi(4, 1, 1), -8.0F) << "no seed inside";
+}
+
+TEST(FastMarching, RefusesSeedsAndOptionsOutOfRange) {
+  DenseField phi({3, 3, 3}, 1.0F);
+  const Vector3d one = Vector3d::Ones();
+  EXPECT_THROW(marchFromSeeds(phi, {{{3, 0, 0}, 1}}, one, 3), std::invalid_argument);
+  EXPECT_THROW(marchFromSeeds(phi, {{{0, -1, 0}, 1}}, one, 3), std::invalid_argument);
+  EXPECT_THROW(marchFromSeeds(phi, {{{0, 0, 0}, -1}}, one, 3), std::invalid_argument);
+  EXPECT_THROW(marchFromSeeds(phi, {{{0, 0, 0}, std::nan("")}}, one, 3), std::invalid_argument);
+  EXPECT_THROW(fastMarching(phi, one, 3, {.order = 3}), std::invalid_argument);
+  EXPECT_THROW(fastMarching(phi, one, 3, {.closestPointLayers = 4}), std::invalid_argument);
+}
+
 TEST(FastMarching, RefusesSpacingAndBandThatAreNotPositive) {
   DenseField phi({3, 3, 3}, 1.0F);
   EXPECT_THROW(fastMarching(phi, Vector3d(1, 0, 1), 3), std::invalid_argument);

@@ -35,7 +35,8 @@ struct MarchSeed {
 };
 
 /// The distance, along ways that stay on one side, from seeds of known distance:
-///     phi(x) = +- min over seeds s of (distance_s + |x - s|),  as upwind differences have it.
+///     phi(x) = +- min over seeds s of (distance_s + |x - s|),  as upwind differences have it;
+/// the seeds keep theirs.
 /// @param phi  its signs tell the two sides; a field without negative samples gives an unsigned distance.
 ///             Replaced by the distances, +-band beyond the band and where no seed is on the side.
 /// @param seeds  in any order; of several at one sample the nearest counts

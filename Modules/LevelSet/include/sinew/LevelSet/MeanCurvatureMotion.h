@@ -6,7 +6,7 @@ namespace sinew {
 
 struct MeanCurvatureMotionOptions {
   double cfl = 1.0 / 6;        ///< largest  b dt / h^2, in (0, 1/6]
-  int stepsPerRedistance = 6;  ///< phi is made a distance again after this many steps, >= 1
+  int stepsPerRedistance = 8;  ///< phi is made a distance again after this many steps, >= 1
 };
 
 /// What the motion did.
@@ -17,7 +17,7 @@ struct MeanCurvatureMotionReport {
 
 /// Moves the surface by its mean curvature for a time t:
 ///     phi_t = b kappa |grad phi|,   kappa = div (grad phi / |grad phi|) = k1 + k2,
-/// explicit in time with b dt <= cfl h^2, by central differences, within three samples of the surface, with
+/// explicit in time with b dt <= cfl h^2, by central differences, within four samples of the surface, with
 /// fast marching in between. A ball of radius R becomes one of sqrt(R^2 - 4 b t), a cylinder of
 /// sqrt(R^2 - 2 b t); pieces that shrink to nothing are gone. Where grad phi vanishes, on the skeleton, the
 /// direction in which phi bends most counts as the normal: a plate does not move, a ball's centre rises.
