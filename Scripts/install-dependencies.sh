@@ -5,7 +5,7 @@ set -euo pipefail
 packages=(
   g++ cmake ninja-build
   libinsighttoolkit5-dev libvtk9-dev libopenvdb-dev libboost-dev libeigen3-dev libtbb-dev zlib1g-dev libisal-dev
-  libcli11-dev nlohmann-json3-dev libqhull-dev
+  libcli11-dev nlohmann-json3-dev libqhull-dev liblua5.4-dev
   libgtest-dev libbenchmark-dev
 )
 

@@ -5,6 +5,13 @@ find_package(ZLIB REQUIRED)
 find_package(ISAL REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(Qhull REQUIRED)
+find_package(Lua 5.4 EXACT REQUIRED)
+if(NOT TARGET Lua::Lua)  # CMake's module defines none
+  add_library(Lua::Lua INTERFACE IMPORTED)
+  set_target_properties(Lua::Lua PROPERTIES
+    INTERFACE_SYSTEM_INCLUDE_DIRECTORIES "${LUA_INCLUDE_DIR}" INTERFACE_INCLUDE_DIRECTORIES "${LUA_INCLUDE_DIR}"
+    INTERFACE_LINK_LIBRARIES "${LUA_LIBRARIES}")
+endif()
 set(CMAKE_MESSAGE_LOG_LEVEL WARNING)  # notices of Imath and gdcm about parts that nobody needs
 find_package(OpenVDB 10 REQUIRED)
 find_package(ITK 5.2 REQUIRED COMPONENTS ITKCommon ITKIOImageBase ITKIONRRD ITKIOMeta ITKIONIFTI)

@@ -42,8 +42,10 @@ ProgressDisplay::ProgressDisplay(const CommonOptions& options)
             : hasTerminal()   ? Kind::Bar
                               : Kind::None) {}
 
-ProgressDisplay::~ProgressDisplay() {
-  if (drawn_) std::cerr << "\r\033[K" << std::flush;
+ProgressDisplay::~ProgressDisplay() { clear(); }
+
+void ProgressDisplay::clear() {
+  if (std::exchange(drawn_, false)) std::cerr << "\r\033[K" << std::flush;
 }
 
 void ProgressDisplay::show(const std::string& tissue, const std::string& stage, double done) {

@@ -21,6 +21,9 @@ class ProgressDisplay {
   /// @param done  of all work, in [0, 1]
   void show(const std::string& tissue, const std::string& stage, double done);
 
+  /// Takes the bar away, so that something else can be printed.
+  void clear();
+
  private:
   enum class Kind { None, Bar, Lines };
   void showBar(const std::string& text, double done);

@@ -17,6 +17,7 @@ TEST(Program, HelpAndVersionAreResults) {
                                 {"info", "-h"},
                                 {"quality", "--help"},
                                 {"phantom", "--help"},
+                                {"repair", "--help"},
                                 {"phantom", "--list"},
                                 {"mesh", "--version"}}) {
     const ProgramResult result = run(arguments);

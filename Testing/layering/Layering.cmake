@@ -1,26 +1,29 @@
 # The borders between modules and around foreign libraries, as data, and the function that finds violations.
 #
 # A module may include the public headers of the modules named here, and its own.
-set(modules Segmentation LevelSet Mesher MeshIO Pipeline)
+set(modules Segmentation LevelSet Mesher MeshIO Repair Pipeline)
 set(below_Segmentation)
 set(below_LevelSet Segmentation)
 set(below_Mesher)
 set(below_MeshIO Mesher)
+set(below_Repair Segmentation LevelSet Mesher MeshIO)
 set(below_Pipeline Segmentation LevelSet Mesher MeshIO)
 set(below_Applications ${modules})
 
 # Foreign libraries: what their includes look like, and the files that may have them. Tests and benchmarks may use what
 # the module's src/ may. LevelSetGrid.h counts as OpenVDB, because it brings all of it.
-set(libraries ITK VTK OpenVDB CLI11 json Qhull)
+set(libraries ITK VTK OpenVDB Lua CLI11 json Qhull)
 set(include_ITK "^itk")
 set(include_VTK "^vtk")
 set(include_OpenVDB "^(openvdb|Imath|boost)/|^sinew/LevelSet/LevelSetGrid\\.h$")
+set(include_Lua "^(lua|lauxlib)")
 set(include_CLI11 "^CLI/")
 set(include_json "^nlohmann/")
 set(include_Qhull "^libqhull")
 set(allowed_ITK "^Modules/Segmentation/(src|test|bench)/")
 set(allowed_VTK "^Modules/MeshIO/(src|test|bench)/")
 set(allowed_OpenVDB "^Modules/LevelSet/((src|test|bench)/|include/sinew/LevelSet/LevelSetGrid\\.h$)")
+set(allowed_Lua "^Modules/Repair/src/")
 set(allowed_CLI11 "^Applications/")
 set(allowed_json "^(Modules/Pipeline/(src|test|bench)|Applications)/")
 set(allowed_Qhull "^Modules/LevelSet/src/ConvexHull\\.cpp$")

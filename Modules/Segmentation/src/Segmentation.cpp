@@ -71,9 +71,28 @@ LabelExtents labelExtents(const std::vector<std::int32_t>& layer, const Eigen::V
   return table.take();
 }
 
-/// A bright colour per label: hues a golden ratio of the circle apart never come close for neighbouring
-/// labels.
-std::array<double, 3> colorOfLabel(std::int32_t label) {
+Tissue unnamedTissue(int layer, std::int32_t label) {
+  Tissue tissue;
+  tissue.name = "Segment_" + std::to_string(label);
+  if (layer > 0) tissue.name += "_layer_" + std::to_string(layer);
+  tissue.id = tissue.name;
+  tissue.layer = layer;
+  tissue.label = label;
+  tissue.color = labelColor(label);
+  return tissue;
+}
+
+auto byLayerThenLabel(const Tissue& tissue) { return std::tuple(tissue.layer, tissue.label); }
+
+}  // namespace
+
+std::int32_t Segmentation::at(int layer, const Eigen::Vector3i& index) const {
+  const std::int64_t row = index.y() + std::int64_t{geometry.size.y()} * index.z();
+  return layers[layer][index.x() + geometry.size.x() * row];
+}
+
+std::array<double, 3> labelColor(std::int32_t label) {
+  // Hues a golden ratio of the circle apart never come close for neighbouring labels.
   constexpr double goldenRatio = 0.6180339887498949, saturation = 0.55, value = 0.9;
   const double turns = label * goldenRatio;
   const double hue = turns - std::floor(turns);
@@ -86,26 +105,6 @@ std::array<double, 3> colorOfLabel(std::int32_t label) {
     color[c] = value * (1 - saturation * (1 - ramp));
   }
   return color;
-}
-
-Tissue unnamedTissue(int layer, std::int32_t label) {
-  Tissue tissue;
-  tissue.name = "Segment_" + std::to_string(label);
-  if (layer > 0) tissue.name += "_layer_" + std::to_string(layer);
-  tissue.id = tissue.name;
-  tissue.layer = layer;
-  tissue.label = label;
-  tissue.color = colorOfLabel(label);
-  return tissue;
-}
-
-auto byLayerThenLabel(const Tissue& tissue) { return std::tuple(tissue.layer, tissue.label); }
-
-}  // namespace
-
-std::int32_t Segmentation::at(int layer, const Eigen::Vector3i& index) const {
-  const std::int64_t row = index.y() + std::int64_t{geometry.size.y()} * index.z();
-  return layers[layer][index.x() + geometry.size.x() * row];
 }
 
 void updateTissueTable(Segmentation& segmentation) {

@@ -43,6 +43,9 @@ struct Segmentation {
   std::int32_t at(int layer, const Eigen::Vector3i& index) const;
 };
 
+/// A bright colour for a label, RGB in 0..1: neighbouring labels get hues far apart.
+std::array<double, 3> labelColor(std::int32_t label);
+
 /// Rebuilds voxels and boxes of the tissue table from the layers: values without an entry get one named
 /// `Segment_<value>` (`Segment_<value>_layer_<n>` above layer 0) with a colour of its own, entries without voxels move to `emptyTissues`.
 /// Cost: O(voxels).
