@@ -35,6 +35,7 @@ const std::string kRepair =
     "save('biceps', biceps)\n"
     "save('gap', box{min={0, 0, 0}, max={10, 20, 5}}:rotate{axis={0, 0, 1}, degrees=15}, {color={0.9, 0.5, "
     "0.4}})\n"
+    "priority{'gap'}\n"
     "remove 'skin'\n"
     "print('done')\n";
 
