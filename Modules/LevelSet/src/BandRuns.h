@@ -21,6 +21,8 @@ struct BandSlice {
 
 /// The samples with |phi| < within, slice by slice in raster order. Cost: O(samples), slices in parallel.
 std::vector<BandSlice> bandRuns(const DenseField& phi, float within);
+/// The samples with steps <= atMost.
+std::vector<BandSlice> bandRuns(const DenseMask& steps, int atMost);
 
 /// Rows j-1..j+1 of slices k-1..k+1; beyond the raster lies its outermost row.
 struct RowStencil {
