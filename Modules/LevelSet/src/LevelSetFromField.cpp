@@ -1,5 +1,6 @@
 #include "sinew/LevelSet/LevelSetFromField.h"
 
+#include "GridTransform.h"
 #include "sinew/LevelSet/LevelSetGrid.h"
 
 #include <openvdb/tools/Dense.h>
@@ -15,17 +16,6 @@ namespace {
 
 using Leaf = openvdb::FloatTree::LeafNodeType;
 constexpr int kLeaf = static_cast<int>(Leaf::DIM);
-
-openvdb::math::Transform::Ptr transformOf(const DenseLevelSet& dense) {
-  const Eigen::Matrix3d steps = dense.frame.linear() * dense.voxelSize;
-  const Eigen::Vector3d& t = dense.frame.translation();
-  openvdb::Mat4d rows = openvdb::Mat4d::identity();  // OpenVDB multiplies row vectors
-  for (int a = 0; a < 3; ++a) {
-    for (int b = 0; b < 3; ++b) rows[a][b] = steps(b, a);
-    rows[3][a] = t[a];
-  }
-  return openvdb::math::Transform::createLinearTransform(rows);
-}
 
 /// The leaf whose first sample is `origin`, or null where the band does not reach.
 Leaf* makeLeaf(const DenseField& phi, const openvdb::Coord& origin, float band, float offset) {
@@ -65,7 +55,7 @@ LevelSet levelSetFromField(const DenseLevelSet& dense, double offset) {
   const auto band = static_cast<float>(dense.band), shift = static_cast<float>(offset);
   auto grid = openvdb::FloatGrid::create(band);
   grid->setGridClass(openvdb::GRID_LEVEL_SET);
-  grid->setTransform(transformOf(dense));
+  grid->setTransform(gridTransform(dense.frame, dense.voxelSize));
 
   const Eigen::Vector3i blocks = (dense.phi.size.array() + kLeaf - 1) / kLeaf;
   std::vector<std::vector<Leaf*>> leaves(static_cast<std::size_t>(blocks.z()));

@@ -1,13 +1,18 @@
 #include "sinew/LevelSet/LevelSetFromTriangles.h"
 
 #include "ClosedSurfaces.h"
+#include "GridTransform.h"
+#include "LatticeBox.h"
+#include "sinew/LevelSet/LevelSetFromField.h"
 #include "sinew/LevelSet/LevelSetGrid.h"
 #include "sinew/LevelSet/LevelSetMeasures.h"
 
 #include <openvdb/tools/Composite.h>
 #include <openvdb/tools/MeshToVolume.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -17,11 +22,13 @@ namespace {
 
 using openvdb::FloatGrid;
 
+constexpr double kLeastBandVoxels = 3, kMostBandVoxels = 100;
+
 void checkOptions(const LevelSetFromTrianglesOptions& options) {
   if (!(options.spacing >= 0) || !std::isfinite(options.spacing))
     throw std::invalid_argument("levelSetFromTriangles: spacing must not be negative, got " +
                                 std::to_string(options.spacing));
-  if (!(options.bandVoxels >= 3 && options.bandVoxels <= 100))
+  if (!(options.bandVoxels >= kLeastBandVoxels && options.bandVoxels <= kMostBandVoxels))
     throw std::invalid_argument("levelSetFromTriangles: bandVoxels must lie in [3, 100], got " +
                                 std::to_string(options.bandVoxels));
 }
@@ -33,41 +40,41 @@ Eigen::AlignedBox3d boxOf(const TriangleSurface& surface) {
   return box;
 }
 
-/// One closed surface as OpenVDB reads it, in voxels.
+/// One closed surface as OpenVDB reads it, by the indices of a lattice.
 class Polygons {
  public:
-  Polygons(const TriangleSurface& surface, const ClosedSurface& part, const Eigen::Vector3d& origin,
-           double voxelSize)
-      : surface_(surface), part_(part), origin_(origin), voxelSize_(voxelSize) {}
+  Polygons(const TriangleSurface& surface, const ClosedSurface& part, const SampleLattice& lattice)
+      : surface_(surface),
+        part_(part),
+        toIndex_(Eigen::Scaling(1 / lattice.spacing) * lattice.frame.inverse()) {}
 
   std::size_t polygonCount() const { return part_.triangles.size(); }
   std::size_t pointCount() const { return surface_.nodes.size(); }
   std::size_t vertexCount(std::size_t) const { return 3; }
   void getIndexSpacePoint(std::size_t polygon, std::size_t corner, openvdb::Vec3d& at) const {
-    const Eigen::Vector3d& node = surface_.nodes[surface_.triangles[part_.triangles[polygon]][corner]];
-    const Eigen::Vector3d index = (node - origin_) / voxelSize_;
+    const Eigen::Vector3d index =
+        toIndex_ * surface_.nodes[surface_.triangles[part_.triangles[polygon]][corner]];
     at = {index.x(), index.y(), index.z()};
   }
 
  private:
   const TriangleSurface& surface_;
   const ClosedSurface& part_;
-  Eigen::Vector3d origin_;
-  double voxelSize_;
+  Eigen::Affine3d toIndex_;
 };
 
-/// Where the grid lies; @throws when the spacing would make it enormous.
-void placeGrid(const TriangleSurface& surface, const LevelSetFromTrianglesOptions& options,
-               LevelSet& result) {
+/// A lattice along the axes of LPS; @throws when the spacing would make it enormous.
+SampleLattice latticeFor(const TriangleSurface& surface, const LevelSetFromTrianglesOptions& options) {
   constexpr double kVoxelsAlong = 200, kMostVoxelsAlong = 1e5;
   const Eigen::AlignedBox3d box = boxOf(surface);
   const double side = box.sizes().maxCoeff();
-  result.voxelSize = options.spacing > 0 ? options.spacing : side / kVoxelsAlong;
-  if (side > kMostVoxelsAlong * result.voxelSize)
-    throw std::invalid_argument("levelSetFromTriangles: a spacing of " + std::to_string(result.voxelSize) +
+  SampleLattice lattice;
+  lattice.spacing = options.spacing > 0 ? options.spacing : side / kVoxelsAlong;
+  if (side > kMostVoxelsAlong * lattice.spacing)
+    throw std::invalid_argument("levelSetFromTriangles: a spacing of " + std::to_string(lattice.spacing) +
                                 " mm is too fine for a surface of " + std::to_string(side) + " mm");
-  result.band = options.bandVoxels * result.voxelSize;
-  result.frame.translation() = box.min();
+  lattice.frame.translation() = box.min();
+  return lattice;
 }
 
 openvdb::CoordBBox activeBox(const FloatGrid& grid) {
@@ -77,41 +84,41 @@ openvdb::CoordBBox activeBox(const FloatGrid& grid) {
   return box;
 }
 
-}  // namespace
+/// What encloses more comes first, so that a solid in a cavity in a solid is there at the end.
+std::vector<ClosedSurface> largestFirst(std::vector<ClosedSurface> parts) {
+  std::ranges::stable_sort(parts, std::ranges::greater(),
+                           [](const ClosedSurface& part) { return std::abs(part.volume); });
+  return parts;
+}
 
-LevelSet levelSetFromTriangles(const TriangleSurface& surface, const LevelSetFromTrianglesOptions& options,
-                               LevelSetFromTrianglesReport* report) {
-  checkOptions(options);
-  const std::vector<ClosedSurface> parts = closedSurfaces(surface);
+LevelSet levelSetOn(const SampleLattice& lattice, const TriangleSurface& surface,
+                    const std::vector<ClosedSurface>& parts, double bandVoxels,
+                    LevelSetFromTrianglesReport* report) {
+  openvdb::initialize();
   double volume = 0;
   for (const ClosedSurface& part : parts) volume += part.volume;
 
-  openvdb::initialize();
   LevelSet result;
-  placeGrid(surface, options, result);
-  const Eigen::Vector3d origin = result.frame.translation();
-  const auto transform = openvdb::math::Transform::createLinearTransform(result.voxelSize);
-  transform->postTranslate({origin.x(), origin.y(), origin.z()});
-
-  const auto distanceTo = [&](const ClosedSurface& part) {
-    const auto band = static_cast<float>(options.bandVoxels);
-    return openvdb::tools::meshToVolume<FloatGrid>(Polygons(surface, part, origin, result.voxelSize),
-                                                   *transform, band, band);
-  };
-  LevelSetFromTrianglesReport made;
+  result.frame = lattice.frame;
+  result.voxelSize = lattice.spacing;
+  result.band = bandVoxels * lattice.spacing;
+  const auto transform = gridTransform(lattice.frame, lattice.spacing);
   const auto grid = FloatGrid::create(static_cast<float>(result.band));
   grid->setTransform(transform);
   grid->setGridClass(openvdb::GRID_LEVEL_SET);
-  const auto isSolid = [&](const ClosedSurface& part) { return part.volume * volume > 0; };
-  for (const ClosedSurface& part : parts) {
-    if (!isSolid(part)) continue;
-    openvdb::tools::csgUnion(*grid, *distanceTo(part));
-    ++made.solids;
-  }
-  for (const ClosedSurface& part : parts) {
-    if (isSolid(part)) continue;
-    openvdb::tools::csgDifference(*grid, *distanceTo(part));
-    ++made.cavities;
+
+  LevelSetFromTrianglesReport made;
+  for (const ClosedSurface& part : largestFirst(parts)) {
+    const auto band = static_cast<float>(bandVoxels);
+    const auto distance =
+        openvdb::tools::meshToVolume<FloatGrid>(Polygons(surface, part, lattice), *transform, band, band);
+    if (part.volume * volume > 0) {
+      openvdb::tools::csgUnion(*grid, *distance);
+      ++made.solids;
+    } else {
+      openvdb::tools::csgDifference(*grid, *distance);
+      ++made.cavities;
+    }
   }
   const openvdb::CoordBBox active = activeBox(*grid);
   result.lower = {active.min().x(), active.min().y(), active.min().z()};
@@ -122,6 +129,33 @@ LevelSet levelSetFromTriangles(const TriangleSurface& surface, const LevelSetFro
     made.levelSetVolume = levelSetVolume(result);
     *report = made;
   }
+  return result;
+}
+
+}  // namespace
+
+LevelSet levelSetFromTriangles(const TriangleSurface& surface, const LevelSetFromTrianglesOptions& options,
+                               LevelSetFromTrianglesReport* report) {
+  checkOptions(options);
+  const std::vector<ClosedSurface> parts = closedSurfaces(surface);
+  return levelSetOn(latticeFor(surface, options), surface, parts, options.bandVoxels, report);
+}
+
+DenseLevelSet levelSetFromTriangles(const TriangleSurface& surface, const SampleLattice& lattice, double band,
+                                    LevelSetFromTrianglesReport* report) {
+  const double bandVoxels = band / lattice.spacing;
+  if (!(band > 0) || !(bandVoxels <= kMostBandVoxels))
+    throw std::invalid_argument("levelSetFromTriangles: band must be positive and at most " +
+                                std::to_string(kMostBandVoxels * lattice.spacing) + " mm, got " +
+                                std::to_string(band));
+  const std::vector<ClosedSurface> parts = closedSurfaces(surface);
+  latticeBox(boxOf(surface).transformed(lattice.frame.inverse()), lattice.spacing, band,
+             "levelSetFromTriangles");  // fails where it is too large
+  DenseLevelSet result =
+      fieldFromLevelSet(levelSetOn(lattice, surface, parts, std::max(bandVoxels, kLeastBandVoxels), report));
+  const auto limit = static_cast<float>(band);
+  for (float& phi : result.phi.values) phi = std::clamp(phi, -limit, limit);
+  result.band = band;
   return result;
 }
 

@@ -1,3 +1,4 @@
+#include "LatticeBox.h"
 #include "RigidScaling.h"
 #include "sinew/LevelSet/Redistance.h"
 #include "sinew/LevelSet/Solid.h"
@@ -7,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <string>
 
 namespace sinew {
 namespace {
@@ -37,17 +37,6 @@ Solid cutOff(const Solid& solid, const AlignedBox3d& within, double band) {
   };
   return {phi, within.intersection(solid.bounds), false};
 }
-
-/// First and last sample of the lattice's box around a box of LPS that is grown by `margin` mm.
-struct Samples {
-  Vector3d lower, upper;
-  Samples(const AlignedBox3d& box, const SampleLattice& lattice, double margin) {
-    const AlignedBox3d turned = box.transformed(lattice.frame.inverse());
-    lower = ((turned.min().array() - margin) / lattice.spacing).floor();
-    upper = ((turned.max().array() + margin) / lattice.spacing).ceil();
-  }
-  double count() const { return (upper - lower + Vector3d::Ones()).prod(); }
-};
 
 void evaluateBlock(const Solid& solid, DenseLevelSet& levelSet, const Vector3i& lower) {
   const Vector3i upper = (lower.array() + kBlock).min(levelSet.phi.size.array());
@@ -79,11 +68,9 @@ DenseLevelSet sampleSolid(const Solid& solid, const SampleLattice& lattice, doub
   if (!(bounds.sizes().array() > 0).all())
     return emptyLevelSet(lattice, Vector3i::Zero(), Vector3i::Zero(), band);
   if (!isFinite(bounds)) throw std::invalid_argument("sampleSolid: the solid must end within a finite box");
-  const Samples samples(bounds, lattice, band + lattice.spacing);
-  if (!(samples.count() <= static_cast<double>(mostSamples)))
-    throw std::invalid_argument("sampleSolid: the solid needs " + std::to_string(samples.count()) +
-                                " samples; at most " + std::to_string(mostSamples) + " are allowed");
-  DenseLevelSet result = emptyLevelSet(lattice, samples.lower.cast<int>(), samples.upper.cast<int>(), band);
+  const LatticeBox samples = latticeBox(bounds.transformed(lattice.frame.inverse()), lattice.spacing,
+                                        band + lattice.spacing, "sampleSolid", mostSamples);
+  DenseLevelSet result = emptyLevelSet(lattice, samples.lower, samples.upper, band);
   const Solid piece = cutOff(solid, within, band);
   const Vector3i blocks = (result.phi.size.array() + kBlock - 1) / kBlock;
   tbb::parallel_for(0, blocks.z() * blocks.y(), [&](int n) {

@@ -1,4 +1,5 @@
 #include "Sampling.h"
+#include "SolidShapes.h"
 #include "sinew/LevelSet/LevelSetFromTriangles.h"
 #include "sinew/LevelSet/LevelSetGrid.h"
 #include "sinew/LevelSet/LevelSetMeasures.h"
@@ -175,6 +176,46 @@ TEST(LevelSetFromTriangles, SurfacesAddUpAndThoseTurnedAgainstThemAreCavities) {
   const LevelSetTopology topology = levelSetTopology(levelSet);
   EXPECT_EQ(topology.components, 2);
   EXPECT_EQ(topology.eulerCharacteristic, 6);
+}
+
+TEST(LevelSetFromTriangles, ASolidInACavityInASolidIsThere) {
+  const Vector3d centre(0, 0, 0);
+  const Triangles outer = sphereOf(centre, 8, 4), hollow = turned(sphereOf(centre, 5, 4)),
+                  core = sphereOf(centre, 2, 4);
+  for (const Triangles& all :
+       {together(core, together(hollow, outer)), together(outer, together(hollow, core))}) {
+    LevelSetFromTrianglesReport report;
+    const LevelSet levelSet = levelSetFromTriangles(all.surface(), {.spacing = 0.2}, &report);
+    EXPECT_EQ(report.solids, 2);
+    EXPECT_EQ(report.cavities, 1);
+    EXPECT_LT(valueAt(levelSet, centre), 0);
+    EXPECT_GT(valueAt(levelSet, {3.5, 0, 0}), 0);
+    EXPECT_LT(valueAt(levelSet, {6.5, 0, 0}), 0);
+    EXPECT_NEAR(report.levelSetVolume, report.surfaceVolume, 2e-3 * report.surfaceVolume);
+    EXPECT_EQ(levelSetTopology(levelSet).components, 2);
+  }
+}
+
+TEST(LevelSetFromTriangles, OnALatticeItHasTheSamplesOfTheLattice) {
+  const SampleLattice lattice = test::tiltedLattice(kSpacing);
+  const Triangles box = boxOf(kLower, kUpper);
+  const test::AnalyticBox exact(kLower, kUpper);
+  for (const double band : {0.5, 0.75, 1.5}) {
+    LevelSetFromTrianglesReport report;
+    const DenseLevelSet levelSet = levelSetFromTriangles(box.surface(), lattice, band, &report);
+    EXPECT_TRUE(firstSampleOn(lattice, levelSet).has_value());
+    EXPECT_EQ(levelSet.band, band);
+    EXPECT_EQ(report.solids, 1);
+    test::forEachSample(levelSet, [&](const Vector3d& x, double phi) {
+      // Deeper in the band OpenVDB asks only the triangles that it found nearer to the surface.
+      const double allowed = std::abs(phi) < 1.5 * kSpacing ? 1e-5 : 0.2 * kSpacing;
+      ASSERT_NEAR(phi, std::clamp(exact.value(x), -band, band), allowed);
+    });
+    EXPECT_NEAR(test::volumeOf(levelSet), (kUpper - kLower).prod(), 0.005 * (kUpper - kLower).prod());
+  }
+  EXPECT_THROW(levelSetFromTriangles(box.surface(), lattice, 0), std::invalid_argument);
+  EXPECT_THROW(levelSetFromTriangles(box.surface(), lattice, 101 * kSpacing), std::invalid_argument);
+  EXPECT_THROW(levelSetFromTriangles(box.surface(), test::tiltedLattice(1e-4), 3e-4), std::invalid_argument);
 }
 
 TEST(LevelSetFromTriangles, TheSameGridForAnyNumberOfThreads) {

@@ -168,7 +168,7 @@ TEST(Solid, RefusesBoxesThatAreInfiniteOrTooLarge) {
   const std::string message = test::messageOf<std::invalid_argument>([&] {
     sampleSolid(sphere({0, 0, 0}, 100), lattice, 3, test::kEverywhere, 1000000);
   });
-  EXPECT_NE(message.find("at most 1000000 are allowed"), std::string::npos) << message;
+  EXPECT_NE(message.find("at most 1000000 samples are allowed"), std::string::npos) << message;
   EXPECT_THROW(sampleSolid(sphere({0, 0, 0}, 1e30), lattice, 3, test::kEverywhere), std::invalid_argument);
 }
 

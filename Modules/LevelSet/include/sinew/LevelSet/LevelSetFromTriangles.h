@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sinew/LevelSet/LevelSet.h"
+#include "sinew/LevelSet/SampleLattice.h"
 
 #include <array>
 #include <cstdint>
@@ -28,10 +29,11 @@ struct LevelSetFromTrianglesReport {
 };
 
 /// Turns closed surfaces of triangles into the signed distance of what they enclose, on a grid along the axes
-/// of LPS: OpenVDB's mesh to volume for every connected surface, then union and difference. All triangles
-/// may be turned inwards or outwards; a surface turned against the rest is a cavity. Details below the
+/// of LPS: OpenVDB's mesh to volume for every connected surface, then union or difference, the largest first.
+/// All triangles may be turned inwards or outwards; a surface turned against the rest is a cavity, which may
+/// hold solids again. Details below the
 /// spacing are lost; edges stay as sharp as the grid can hold them. Distances are exact up to a voxel from
-/// the surface, and within a tenth of a voxel in the rest of the band.
+/// the surface, and within a fifth of a voxel in the rest of the band.
 /// @throws std::invalid_argument on options out of range, and when the triangles are no closed manifold:
 /// none at all, nodes that are not there or not finite, edges with one triangle or with more than two,
 /// neighbours turned against each other, no volume.
@@ -40,5 +42,11 @@ struct LevelSetFromTrianglesReport {
 LevelSet levelSetFromTriangles(const TriangleSurface& surface,
                                const LevelSetFromTrianglesOptions& options = {},
                                LevelSetFromTrianglesReport* report = nullptr);
+
+/// The same on the samples of a lattice.
+/// @param band  mm, at most 100 times the spacing
+/// @throws std::invalid_argument as above, and when the shape's box has more than 2^31 samples.
+DenseLevelSet levelSetFromTriangles(const TriangleSurface& surface, const SampleLattice& lattice, double band,
+                                    LevelSetFromTrianglesReport* report = nullptr);
 
 }  // namespace sinew

@@ -11,9 +11,9 @@ namespace sinew {
 /// @throws std::runtime_error naming the file.
 void writeVdb(const LevelSet& levelSet, const std::string& name, const std::filesystem::path& file);
 
-/// Reads the first float grid of class level set.
-/// @throws std::runtime_error naming the file: no OpenVDB file, damaged, no level set in it, or one whose
-/// samples are not isotropic or sheared.
+/// Reads the first float grid of class level set; its band is the grid's background.
+/// @throws std::runtime_error naming the file: no OpenVDB file, damaged, no level set in it, one without a
+/// surface or in a box of more than 2^31 samples, or one whose samples are stretched, sheared or mirrored.
 LevelSet readVdb(const std::filesystem::path& file);
 
 }  // namespace sinew

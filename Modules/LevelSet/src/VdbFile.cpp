@@ -1,0 +1,104 @@
+#include "sinew/LevelSet/VdbFile.h"
+
+#include "GridTransform.h"
+#include "sinew/LevelSet/LevelSetGrid.h"
+
+#include <openvdb/io/File.h>
+
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+
+namespace sinew {
+namespace {
+
+namespace fs = std::filesystem;
+using openvdb::FloatGrid;
+
+[[noreturn]] void fail(const fs::path& file, const std::string& what) {
+  throw std::runtime_error(file.string() + ": " + what);
+}
+
+/// What OpenVDB complains about, on one line.
+std::string lineOf(const std::exception& error) {
+  const std::string text = error.what();
+  return text.substr(0, text.find('\n'));
+}
+
+/// The first level set of a file, or null.
+FloatGrid::Ptr firstLevelSet(openvdb::io::File& in) {
+  const openvdb::GridPtrVecPtr all = in.readAllGridMetadata();
+  for (const openvdb::GridBase::Ptr& header : *all)
+    if (header->isType<FloatGrid>() && header->getGridClass() == openvdb::GRID_LEVEL_SET)
+      return openvdb::gridPtrCast<FloatGrid>(in.readGrid(header->getName()));
+  return nullptr;
+}
+
+/// OpenVDB's errors, and those of the standard library on sizes that a damaged file claims, as ours.
+FloatGrid::Ptr readGrid(const fs::path& file) try {
+  constexpr bool kDelayed = false;  // a file that changes later must not change the grid
+  openvdb::io::File in(file.string());
+  in.open(kDelayed);
+  return firstLevelSet(in);
+} catch (const std::exception& error) {
+  fail(file, "damaged or no OpenVDB file (" + lineOf(error) + ")");
+}
+
+bool holdsDistances(const FloatGrid& grid) {
+  if (!(grid.background() > 0) || !std::isfinite(grid.background())) return false;
+  for (auto value = grid.cbeginValueAll(); value; ++value)
+    if (!std::isfinite(*value)) return false;
+  return true;
+}
+
+/// One sample around the active ones.
+openvdb::CoordBBox sampleBox(const FloatGrid& grid, const fs::path& file) {
+  constexpr double kMostSamples = 2147483648.0, kFarthest = 1e9;
+  const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
+  if (box.empty()) fail(file, "its level set has no surface");
+  double samples = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = box.min()[axis], high = box.max()[axis];
+    samples *= high - low + 3;
+    if (std::max(std::abs(low), std::abs(high)) > kFarthest) samples = 2 * kMostSamples;
+  }
+  if (samples > kMostSamples) fail(file, "the box of its level set has more than 2^31 samples");
+  return {box.min().offsetBy(-1), box.max().offsetBy(1)};
+}
+
+}  // namespace
+
+void writeVdb(const LevelSet& levelSet, const std::string& name, const fs::path& file) {
+  openvdb::initialize();
+  const FloatGrid::Ptr grid = levelSet.grid->grid->copy();  // shares the tree
+  grid->setName(name);
+  try {
+    openvdb::io::File out(file.string());
+    out.write(openvdb::GridCPtrVec{grid});
+  } catch (const std::exception& error) {
+    fail(file, "cannot be written (" + lineOf(error) + ")");
+  }
+}
+
+LevelSet readVdb(const fs::path& file) {
+  openvdb::initialize();
+  if (!fs::exists(file)) fail(file, "no such file");
+  if (!fs::is_regular_file(file) || !std::ifstream(file)) fail(file, "cannot be read");
+  const FloatGrid::Ptr grid = readGrid(file);
+  if (!grid) fail(file, "has no level set: a float grid of class \"level set\"");
+  const auto place = gridFrame(grid->transform());
+  if (!place) fail(file, "the samples of its level set are stretched, sheared or mirrored");
+  if (!holdsDistances(*grid)) fail(file, "damaged: its level set holds values that are no distances");
+  const openvdb::CoordBBox box = sampleBox(*grid, file);
+
+  LevelSet result;
+  result.grid = std::make_shared<LevelSetGrid>(LevelSetGrid{grid});
+  result.frame = place->frame;
+  result.voxelSize = place->voxelSize;
+  result.band = grid->background();
+  result.lower = {box.min().x(), box.min().y(), box.min().z()};
+  result.upper = {box.max().x(), box.max().y(), box.max().z()};
+  return result;
+}
+
+}  // namespace sinew
