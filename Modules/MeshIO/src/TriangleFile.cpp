@@ -1,5 +1,6 @@
 #include "sinew/MeshIO/TriangleFile.h"
 
+#include "PlyFile.h"
 #include "VtkReading.h"
 
 #include <vtkCellArray.h>
@@ -21,30 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-template <class Reader>
-vtkSmartPointer<vtkPolyData> readWith(const fs::path& file) {
-  const auto reader = vtkSmartPointer<Reader>::New();
-  reader->SetFileName(file.c_str());
-  update(reader, file, "a surface mesh");
-  return reader->GetOutput();
-}
-
-/// VTK 9.1 also reads .ply, but aborts on a damaged one.
-struct Format {
-  std::string_view extension;
-  vtkSmartPointer<vtkPolyData> (*read)(const fs::path&);
-};
-constexpr std::array<Format, 3> kFormats{{{".obj", &readWith<vtkOBJReader>},
-                                          {".stl", &readWith<vtkSTLReader>},
-                                          {".vtp", &readWith<vtkXMLPolyDataReader>}}};
-
-vtkSmartPointer<vtkPolyData> readPolygons(const fs::path& file) {
-  requireReadable(file);
-  const auto format = std::ranges::find(kFormats, file.extension().string(), &Format::extension);
-  if (format == kFormats.end()) fail(file, "unknown kind of surface mesh; .obj, .stl and .vtp can be read");
-  return format->read(file);
-}
-
 std::vector<Triangle> trianglesOf(vtkPolyData* polygons, std::size_t nodes, const fs::path& file) {
   std::vector<Triangle> triangles;
   vtkCellArray* cells = polygons->GetPolys();
@@ -59,6 +36,33 @@ std::vector<Triangle> trianglesOf(vtkPolyData* polygons, std::size_t nodes, cons
     for (vtkIdType k = 2; k < size; ++k) triangles.push_back({corner(0), corner(k - 1), corner(k)});
   }
   return triangles;
+}
+
+template <class Reader>
+TriangleMesh readWith(const fs::path& file) {
+  const auto reader = vtkSmartPointer<Reader>::New();
+  reader->SetFileName(file.c_str());
+  update(reader, file, "a surface mesh");
+  TriangleMesh mesh{nodesOf(reader->GetOutput(), file), {}};
+  mesh.triangles = trianglesOf(reader->GetOutput(), mesh.nodes.size(), file);
+  return mesh;
+}
+
+struct Format {
+  std::string_view extension;
+  TriangleMesh (*read)(const fs::path&);
+};
+constexpr std::array<Format, 4> kFormats{{{".obj", &readWith<vtkOBJReader>},
+                                          {".ply", &readPly},
+                                          {".stl", &readWith<vtkSTLReader>},
+                                          {".vtp", &readWith<vtkXMLPolyDataReader>}}};
+
+TriangleMesh readPolygons(const fs::path& file) {
+  requireReadable(file);
+  const auto format = std::ranges::find(kFormats, file.extension().string(), &Format::extension);
+  if (format == kFormats.end())
+    fail(file, "unknown kind of surface mesh; .obj, .ply, .stl and .vtp can be read");
+  return format->read(file);
 }
 
 /// Gives points at the same place one number, that of the first, and drops triangles that then name it twice.
@@ -100,9 +104,7 @@ void dropUnusedNodes(TriangleMesh& mesh) {
 }  // namespace
 
 TriangleMesh readTriangleMesh(const fs::path& file) try {
-  const auto polygons = readPolygons(file);
-  TriangleMesh mesh{nodesOf(polygons, file), {}};
-  mesh.triangles = trianglesOf(polygons, mesh.nodes.size(), file);
+  TriangleMesh mesh = readPolygons(file);
   weld(mesh);
   if (mesh.triangles.empty()) fail(file, "has no polygons");
   dropUnusedNodes(mesh);

@@ -85,7 +85,7 @@ TEST(TriangleFile, WhatCannotBeReadIsNamedInOneLine) {
                                    {"points.obj", "has no polygons"},
                                    {"damaged.vtp", "damaged"},
                                    {"text.stl", ""},
-                                   {"tet.off", ".obj, .stl and .vtp can be read"}}) {
+                                   {"tet.off", ".obj, .ply, .stl and .vtp can be read"}}) {
     const std::string message =
         test::messageOf<std::runtime_error>([&, n = name] { readTriangleMesh(folder / n); });
     EXPECT_EQ(message.find((folder / name).string()), 0u) << name << ": " << message;
