@@ -3,6 +3,7 @@
 #include "ClosedSurfaces.h"
 #include "GridTransform.h"
 #include "LatticeBox.h"
+#include "MarchOn.h"
 #include "sinew/LevelSet/LevelSetFromField.h"
 #include "sinew/LevelSet/LevelSetGrid.h"
 #include "sinew/LevelSet/LevelSetMeasures.h"
@@ -23,6 +24,7 @@ namespace {
 using openvdb::FloatGrid;
 
 constexpr double kLeastBandVoxels = 3, kMostBandVoxels = 100;
+constexpr double kExactVoxels = 1.5;  ///< from the surface to where OpenVDB finds the closest triangle
 
 void checkOptions(const LevelSetFromTrianglesOptions& options) {
   if (!(options.spacing >= 0) || !std::isfinite(options.spacing))
@@ -153,8 +155,7 @@ DenseLevelSet levelSetFromTriangles(const TriangleSurface& surface, const Sample
              "levelSetFromTriangles");  // fails where it is too large
   DenseLevelSet result =
       fieldFromLevelSet(levelSetOn(lattice, surface, parts, std::max(bandVoxels, kLeastBandVoxels), report));
-  const auto limit = static_cast<float>(band);
-  for (float& phi : result.phi.values) phi = std::clamp(phi, -limit, limit);
+  marchOn(result.phi, lattice.spacing, std::min(band, kExactVoxels * lattice.spacing), band);
   result.band = band;
   return result;
 }

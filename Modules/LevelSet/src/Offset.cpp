@@ -1,10 +1,8 @@
 #include "sinew/LevelSet/Offset.h"
 
-#include "TiledMarch.h"
+#include "MarchOn.h"
 #include "sinew/LevelSet/Redistance.h"
 #include "sinew/LevelSet/SampleLattice.h"
-
-#include <tbb/parallel_for.h>
 
 #include <cmath>
 #include <stdexcept>
@@ -20,29 +18,6 @@ using Eigen::Vector3i;
 constexpr double kExact = 3;
 /// Samples that redistance looks at around the surface: two along each axis.
 constexpr double kAround = 4;
-
-/// The samples nearer than `near`, slice by slice in raster order.
-std::vector<std::vector<SurfaceSeed>> samplesNearer(const DenseField& phi, float near) {
-  std::vector<std::vector<SurfaceSeed>> seeds(static_cast<std::size_t>(phi.size.z()));
-  tbb::parallel_for(0, phi.size.z(), [&](int k) {
-    for (int j = 0; j < phi.size.y(); ++j) {
-      const float* row = phi.row(j, k);
-      for (int i = 0; i < phi.size.x(); ++i)
-        if (std::abs(row[i]) < near) seeds[static_cast<std::size_t>(k)].push_back({i, j, row[i]});
-    }
-  });
-  return seeds;
-}
-
-/// Gives a level set a wider band: what it knows exactly stays, and is marched on.
-void widenBand(DenseLevelSet& levelSet, double band) {
-  const auto near = static_cast<float>(std::min(levelSet.band, kExact * levelSet.voxelSize));
-  DenseField far = levelSet.phi;
-  tiledMarch(far, samplesNearer(levelSet.phi, near), Vector3d::Constant(levelSet.voxelSize), band);
-  for (std::size_t n = 0; n < far.values.size(); ++n)
-    if (float& phi = levelSet.phi.values[n]; std::abs(phi) >= near) phi = far.values[n];
-  levelSet.band = band;
-}
 
 /// The box in which the shape grown by `distance` has its band.
 DenseLevelSet grownBox(const DenseLevelSet& levelSet, double distance) {
@@ -77,9 +52,9 @@ DenseLevelSet offset(const DenseLevelSet& levelSet, double distance) {
     return emptyLevelSet({levelSet.frame, levelSet.voxelSize}, Vector3i::Zero(), Vector3i::Zero(),
                          levelSet.band);
   DenseLevelSet result = distance > 0 ? grownBox(levelSet, distance) : levelSet;
-  widenBand(result, std::abs(distance) + kAround * levelSet.voxelSize);
+  marchOn(result.phi, levelSet.voxelSize, std::min(levelSet.band, kExact * levelSet.voxelSize),
+          std::abs(distance) + kAround * levelSet.voxelSize);
   for (float& phi : result.phi.values) phi -= static_cast<float>(distance);
-  result.band = levelSet.band;
   redistance(result);
   return trimmed(result);
 }

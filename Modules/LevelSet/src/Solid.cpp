@@ -1,10 +1,10 @@
 #include "sinew/LevelSet/Solid.h"
 
+#include "SolidParts.h"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <string>
 
 namespace sinew {
@@ -14,30 +14,10 @@ using Eigen::AlignedBox3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-[[noreturn]] void refuse(const std::string& what) { throw std::invalid_argument(what); }
-
-void requireFinite(const Vector3d& point, const std::string& name) {
-  if (!point.allFinite()) refuse(name + " must be finite");
-}
-
-void requirePositive(double length, const std::string& name) {
-  if (!(length > 0) || !std::isfinite(length))
-    refuse(name + " must be positive, got " + std::to_string(length));
-}
-
-void requireNotNegative(double length, const std::string& name) {
-  if (!(length >= 0) || !std::isfinite(length))
-    refuse(name + " must not be negative, got " + std::to_string(length));
-}
-
 void requireApart(const Vector3d& from, const Vector3d& to, const std::string& solid) {
   requireFinite(from, solid + ": from");
   requireFinite(to, solid + ": to");
   if (!((to - from).norm() > 0)) refuse(solid + ": from and to must not be the same point");
-}
-
-AlignedBox3d ballBounds(const Vector3d& center, double radius) {
-  return {center - Vector3d::Constant(radius), center + Vector3d::Constant(radius)};
 }
 
 /// Box of a disk with this axis, a unit vector: along e_i it reaches  r sqrt(1 - n_i^2).
@@ -53,43 +33,6 @@ double segmentDistance(const Point& p, const Point& a, const Point& b) {
   const double squared = ab.squaredNorm();
   const double t = squared > 0 ? std::clamp(ap.dot(ab) / squared, 0.0, 1.0) : 0.0;
   return (ap - t * ab).norm();
-}
-
-/// A point by its place along an axis and its distance from it.
-struct Axis {
-  Vector3d origin, direction;  ///< a unit vector
-
-  Vector2d operator()(const Vector3d& x) const {
-    const double along = direction.dot(x - origin);
-    return {(x - origin - along * direction).norm(), along};
-  }
-};
-
-/// The convex hull of two balls, a round cone, in the half plane of its axis: balls at heights 0 and h.
-/// Source: Quilez, distance functions.
-struct RoundCone {
-  Axis axis;
-  double height, radius, endRadius;
-
-  double phi(const Vector3d& x) const {
-    const Vector2d p = axis(x);
-    const double slope = (radius - endRadius) / height;  // sine of the half angle, |slope| < 1
-    const double flat = std::sqrt(1 - slope * slope);
-    const double along = flat * p.y() - slope * p.x();  // on the side's line, from below to above
-    if (along < 0) return p.norm() - radius;
-    if (along > flat * height) return (p - Vector2d(0, height)).norm() - endRadius;
-    return flat * p.x() + slope * p.y() - radius;
-  }
-};
-
-/// The round cone between two balls, or the one that holds the other.
-std::function<double(const Vector3d&)> hullOfBalls(const Vector3d& from, double radius, const Vector3d& to,
-                                                   double endRadius) {
-  const double height = (to - from).norm();
-  if (height <= std::abs(radius - endRadius))
-    return radius > endRadius ? sphere(from, radius).phi : sphere(to, endRadius).phi;
-  const RoundCone roundCone{{from, (to - from) / height}, height, radius, endRadius};
-  return [roundCone](const Vector3d& x) { return roundCone.phi(x); };
 }
 
 /// Cut at both ends, flat: the distance to the outline of its section, a trapezoid.
@@ -186,30 +129,6 @@ Solid halfSpace(const Vector3d& point, const Vector3d& normal) {
   const Vector3d outward = normal.normalized();
   const Vector3d everywhere = Vector3d::Constant(std::numeric_limits<double>::infinity());
   return {[=](const Vector3d& x) { return outward.dot(x - point); }, {-everywhere, everywhere}};
-}
-
-Solid tube(const std::vector<Vector3d>& points, const std::vector<double>& radii) {
-  if (points.size() < 2) refuse("tube: needs at least two points, got " + std::to_string(points.size()));
-  if (radii.size() != 1 && radii.size() != points.size())
-    refuse("tube: needs one radius for all or one for each of the " + std::to_string(points.size()) +
-           " points, got " + std::to_string(radii.size()));
-  const auto radius = [&](std::size_t n) { return radii.size() == 1 ? radii[0] : radii[n]; };
-  AlignedBox3d bounds;
-  for (std::size_t n = 0; n < points.size(); ++n) {
-    requireFinite(points[n], "tube: point " + std::to_string(n));
-    requirePositive(radius(n), "tube: radius " + std::to_string(n));
-    bounds.extend(ballBounds(points[n], radius(n)));
-  }
-  std::vector<std::function<double(const Vector3d&)>> pieces;
-  for (std::size_t n = 0; n + 1 < points.size(); ++n)
-    pieces.push_back(hullOfBalls(points[n], radius(n), points[n + 1], radius(n + 1)));
-  const bool distance = pieces.size() == 1;
-  const auto phi = [pieces = std::move(pieces)](const Vector3d& x) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const auto& piece : pieces) least = std::min(least, piece(x));
-    return least;
-  };
-  return {phi, bounds, distance};
 }
 
 }  // namespace sinew

@@ -207,8 +207,7 @@ TEST(LevelSetFromTriangles, OnALatticeItHasTheSamplesOfTheLattice) {
     EXPECT_EQ(levelSet.band, band);
     EXPECT_EQ(report.solids, 1);
     test::forEachSample(levelSet, [&](const Vector3d& x, double phi) {
-      // Deeper in the band OpenVDB asks only the triangles that it found nearer to the surface.
-      const double allowed = std::abs(phi) < 1.5 * kSpacing ? 1e-5 : 0.2 * kSpacing;
+      const double allowed = std::abs(exact.value(x)) < kSpacing ? 1e-5 : 0.5 * kSpacing;  // marched
       ASSERT_NEAR(phi, std::clamp(exact.value(x), -band, band), allowed);
     });
     EXPECT_NEAR(test::volumeOf(levelSet), (kUpper - kLower).prod(), 0.005 * (kUpper - kLower).prod());

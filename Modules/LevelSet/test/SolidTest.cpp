@@ -136,6 +136,27 @@ TEST(Solid, SamplesOfAFormulaThatIsNoDistanceBecomeOne) {
   EXPECT_LT(sum / count, 1);
 }
 
+TEST(Solid, ATubeIsTheUnionOfItsPieces) {
+  std::mt19937 random(9);
+  std::vector<Vector3d> points;
+  std::vector<double> radii;
+  for (int n = 0; n < 23; ++n) {
+    points.push_back(test::pointIn(random, 15));
+    radii.push_back(1 + n % 5);
+  }
+  points[5] = points[4];  // one ball in another
+  const Solid whole = tube(points, radii);
+  std::vector<Solid> pieces;
+  for (std::size_t n = 0; n + 1 < points.size(); ++n)
+    pieces.push_back(tube({points[n], points[n + 1]}, {radii[n], radii[n + 1]}));
+  for (int n = 0; n < 2000; ++n) {
+    const Vector3d x = test::pointIn(random, 30);
+    double least = std::numeric_limits<double>::infinity();
+    for (const Solid& piece : pieces) least = std::min(least, piece.phi(x));
+    ASSERT_EQ(whole.phi(x), least);
+  }
+}
+
 TEST(Solid, TheSamplesLieOnTheLattice) {
   const SampleLattice lattice = test::tiltedLattice(0.7);
   const DenseLevelSet levelSet = sampled(sphere({30, 20, 10}, 5), 3, lattice);

@@ -33,7 +33,7 @@ struct LevelSetFromTrianglesReport {
 /// All triangles may be turned inwards or outwards; a surface turned against the rest is a cavity, which may
 /// hold solids again. Details below the
 /// spacing are lost; edges stay as sharp as the grid can hold them. Distances are exact up to a voxel from
-/// the surface, and within a fifth of a voxel in the rest of the band.
+/// the surface, and within half a voxel in the rest of the band.
 /// @throws std::invalid_argument on options out of range, and when the triangles are no closed manifold:
 /// none at all, nodes that are not there or not finite, edges with one triangle or with more than two,
 /// neighbours turned against each other, no volume.
@@ -43,7 +43,7 @@ LevelSet levelSetFromTriangles(const TriangleSurface& surface,
                                const LevelSetFromTrianglesOptions& options = {},
                                LevelSetFromTrianglesReport* report = nullptr);
 
-/// The same on the samples of a lattice.
+/// The same on the samples of a lattice; from a voxel and a half on the distances are marched.
 /// @param band  mm, at most 100 times the spacing
 /// @throws std::invalid_argument as above, and when the shape's box has more than 2^31 samples.
 DenseLevelSet levelSetFromTriangles(const TriangleSurface& surface, const SampleLattice& lattice, double band,
