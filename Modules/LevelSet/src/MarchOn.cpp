@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 
 #include <cmath>
+#include <limits>
 
 namespace sinew {
 namespace {
@@ -27,7 +28,8 @@ std::vector<std::vector<SurfaceSeed>> samplesNearer(const DenseField& phi, float
 void marchOn(DenseField& phi, double spacing, double near, double band) {
   const auto known = static_cast<float>(near);
   DenseField far = phi;
-  tiledMarch(far, samplesNearer(phi, known), Eigen::Vector3d::Constant(spacing), band);
+  tiledMarch(far, samplesNearer(phi, known), Eigen::Vector3d::Constant(spacing), band,
+             {.keepWithin = std::numeric_limits<double>::infinity()});
   for (std::size_t n = 0; n < far.values.size(); ++n)
     if (!(std::abs(phi.values[n]) < known)) phi.values[n] = far.values[n];
 }

@@ -42,9 +42,9 @@ TEST(Offset, TheOffsetOfABallATorusAndACapsuleIsOne) {
          {std::pair(sphere({1, 2, 3}, 12), sphere({1, 2, 3}, 12 + d)),
           std::pair(torus({0, 0, 0}, {1, 2, 9}, 20, 8), torus({0, 0, 0}, {1, 2, 9}, 20, 8 + d)),
           std::pair(capsule(kFrom, kTo, 8), capsule(kFrom, kTo, 8 + d))}) {
-      const Difference surface(offset(sampled(before), d), after, 1);
-      EXPECT_LT(surface.rms, 0.05);  // voxels; worst deep inside, where the march narrows
-      EXPECT_LT(surface.most, 0.2);
+      const Difference surface(offset(sampled(before), d), after, 0.5);
+      EXPECT_LT(surface.rms, 0.015);  // voxels; worst far from the old surface
+      EXPECT_LT(surface.most, 0.08);
     }
   }
 }
@@ -52,11 +52,11 @@ TEST(Offset, TheOffsetOfABallATorusAndACapsuleIsOne) {
 TEST(Offset, ABoxThatGrowsGetsRoundEdgesAndOneThatShrinksStaysSharp) {
   const Vector3d lower(-9, -8, -7), upper(10, 11, 12), one(1, 1, 1);
   const DenseLevelSet before = sampled(box(lower, upper));
-  const Difference grown(offset(before, 5), box(lower - 5 * one, upper + 5 * one, 5), 1);
-  EXPECT_LT(grown.rms, 0.1);  // voxels; worst around the corners
-  EXPECT_LT(grown.most, 0.45);
+  const Difference grown(offset(before, 5), box(lower - 5 * one, upper + 5 * one, 5), 0.5);
+  EXPECT_LT(grown.rms, 0.04);  // voxels; worst around the corners
+  EXPECT_LT(grown.most, 0.15);
   const DenseLevelSet shrunk = offset(before, -4);
-  const Difference inner(shrunk, box(lower + 4 * one, upper - 4 * one), 1);
+  const Difference inner(shrunk, box(lower + 4 * one, upper - 4 * one), 0.5);
   EXPECT_LT(inner.rms, 0.15);  // no sample sees the sharp edge; the corners end a voxel earlier
   EXPECT_LT(inner.most, 1.05);
   EXPECT_NEAR(volumeOf(shrunk), 11. * 11 * 11, 0.01 * 11 * 11 * 11);
@@ -104,8 +104,8 @@ TEST(Offset, ClosingFillsAGapAndLeavesABall) {
   const double whole = volumeOf(sampled(ball));
   EXPECT_GT(volumeOf(closed), 0.97 * whole);  // a groove stays along the rim
   EXPECT_LT(volumeOf(closed), 1.001 * whole);
-  const Difference untouched(closing(sampled(ball), 4), ball, 1);
-  EXPECT_LT(untouched.rms, 0.03);
+  const Difference untouched(closing(sampled(ball), 4), ball, 0.5);
+  EXPECT_LT(untouched.rms, 0.03);  // marched out and back
   EXPECT_LT(untouched.most, 0.1);
 }
 
