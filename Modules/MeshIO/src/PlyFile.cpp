@@ -1,6 +1,5 @@
 #include "PlyFile.h"
 
-#include "PlyHeader.h"
 #include "VtkReading.h"
 
 #include <bit>
@@ -154,6 +153,8 @@ std::vector<Triangle> fansOf(const Polygons& polygons, std::size_t nodes) {
   return triangles;
 }
 
+}  // namespace
+
 TriangleMesh parsePly(std::string_view bytes) {
   const PlyHeader header = parsePlyHeader(bytes);
   Values values(bytes.substr(header.size), header.encoding);
@@ -171,8 +172,6 @@ TriangleMesh parsePly(std::string_view bytes) {
   mesh.triangles = fansOf(polygons, mesh.nodes.size());
   return mesh;
 }
-
-}  // namespace
 
 TriangleMesh readPly(const std::filesystem::path& file) try {
   std::ifstream stream(file, std::ios::binary);

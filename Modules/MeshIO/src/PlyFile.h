@@ -1,5 +1,6 @@
 #pragma once
 
+#include "PlyHeader.h"
 #include "sinew/MeshIO/TriangleFile.h"
 
 namespace sinew {
@@ -9,5 +10,8 @@ namespace sinew {
 /// the file holds does. VTK 9.1 has a reader, which aborts the program on a damaged file.
 /// @throws std::runtime_error naming the file.  Source: Turk 1994, the PLY polygon file format.
 TriangleMesh readPly(const std::filesystem::path& file);
+
+/// The same of a file's bytes. @throws PlyDamaged.
+TriangleMesh parsePly(std::string_view bytes);
 
 }  // namespace sinew

@@ -145,26 +145,24 @@ TEST(PlyFile, DamageIsNamedInOneLine) {
   EXPECT_EQ(message(face + "4000000000 0 1 2"), begin + "ends too early)");
 }
 
-TEST(PlyFile, EveryCutAndEveryFlippedByteEndsInAMeshOrOneLine) {
-  const test::TempFolder folder;
+TEST(PlyFile, EveryCutAndEveryFlippedByteEndsInAMeshOrIsRefused) {
   std::mt19937 random(11);
-  const auto file = folder / "a.ply";
+  int refused = 0;
   const auto tryBytes = [&](const std::string& bytes) {
-    test::writeBytes(file, bytes);
-    std::string message;
     try {
-      for (const Triangle& triangle : readPly(file).triangles)
-        for (const std::int32_t node : triangle) ASSERT_GE(node, 0);
-    } catch (const std::runtime_error& error) {
-      message = error.what();
+      const TriangleMesh mesh = parsePly(bytes);
+      for (const Triangle& triangle : mesh.triangles)
+        for (const std::int32_t node : triangle)
+          ASSERT_TRUE(node >= 0 && static_cast<std::size_t>(node) < mesh.nodes.size());
+    } catch (const PlyDamaged&) {
+      ++refused;
     }
-    ASSERT_EQ(message.find('\n'), std::string::npos);
-    ASSERT_TRUE(message.empty() || message.find(file.string()) == 0);
   };
   for (const std::string& format : kEncodings) {
     const std::string whole = pyramid(format);
-    for (std::size_t size = 0; size < whole.size(); size += 3) tryBytes(whole.substr(0, size));
-    for (int n = 0; n < 500; ++n) {
+    for (std::size_t size = 0; size < whole.size(); ++size) tryBytes(whole.substr(0, size));
+    EXPECT_GT(refused, 400);
+    for (int n = 0; n < 5000; ++n) {
       std::string bytes = whole;
       bytes[random() % bytes.size()] = static_cast<char>(random());
       tryBytes(bytes);
