@@ -41,11 +41,12 @@ const std::string kRepair =
 
 TEST_F(RepairCommand, WritesASegmentationThatCanBeMeshed) {
   const ProgramResult result = run({"repair", arm_, script(kRepair), "-o", output(), "--set", "radius=10",
-                                    "--json", (folder_ / "r.json").string()});
+                                    "--json", (folder_ / "r.json").string(), "--vdb", output("vdb")});
   ASSERT_EQ(result.exitCode, 0) << result.err;
   EXPECT_EQ(result.err, "");
   EXPECT_TRUE(result.out.starts_with("done\n")) << result.out;
   EXPECT_NE(result.out.find("smooth"), std::string::npos) << result.out;
+  EXPECT_EQ(namesIn(folder_ / "vdb"), (std::vector<std::string>{"biceps.vdb", "gap.vdb"}));
 
   const Json json = Json::parse(readBytes(folder_ / "r.json"));
   EXPECT_EQ(json["removed"], (Json{"skin"}));

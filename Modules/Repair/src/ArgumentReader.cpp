@@ -19,6 +19,11 @@ std::string allowed(const Range& range) {
   return text;
 }
 
+bool holds(const Range& range, double number) {
+  return std::isfinite(number) && number <= range.most &&
+         (range.open ? number > range.least : number >= range.least);
+}
+
 struct Quantity {
   double number = 0;
   std::string unit;
@@ -46,8 +51,7 @@ void ArgumentReader::refuse(const std::string& what, const Value& value, const s
 
 void ArgumentReader::check(const std::string& what, const Value& value, double number, const Range& range,
                            const std::string& noun) const {
-  const bool inside = (range.open ? number > range.least : number >= range.least) && number <= range.most;
-  if (!std::isfinite(number) || !inside) refuse(what, value, noun + allowed(range));
+  if (!holds(range, number)) refuse(what, value, noun + allowed(range));
 }
 
 double ArgumentReader::number(const std::string& what, const Value& value, const Range& range) const {
@@ -71,6 +75,7 @@ double ArgumentReader::quantity(const std::string& what, const Value& value, con
   const std::string form = "a " + std::string(noun) + allowed(range) + ", in " + unit +
                            (std::string(noun) == "length" ? ", or a text like \"1.5mm\" or \"2vox\""
                                                           : ", or a text like \"20mm3\" or \"50vox\"");
+  const double most = std::string(noun) == "length" ? kFarthest : std::pow(kFarthest, 3);
   double size = 0;
   if (const double* number = std::get_if<double>(&value)) {
     size = *number;
@@ -83,8 +88,8 @@ double ArgumentReader::quantity(const std::string& what, const Value& value, con
   } else {
     refuse(what, value, form);
   }
-  const bool inside = (range.open ? size > range.least : size >= range.least) && size <= range.most;
-  if (!std::isfinite(size) || !inside) refuse(what, value, form);
+  if (!holds(range, size)) refuse(what, value, form);
+  if (std::abs(size) > most) refuse(what + " is " + describe(value) + ", which is no size of a body");
   return size;
 }
 
@@ -120,7 +125,8 @@ Eigen::Vector3d ArgumentReader::point(const std::string& what, const Value& valu
     refuse(what, value, kPointForm);
   Eigen::Vector3d point;
   for (int axis = 0; axis < 3; ++axis)
-    point[axis] = number("number " + std::to_string(axis + 1) + " of " + what, (*table)->items[axis]);
+    point[axis] = number("number " + std::to_string(axis + 1) + " of " + what, (*table)->items[axis],
+                         {-kFarthest, false, kFarthest});
   return units_.ras ? flipped(point) : point;
 }
 

@@ -21,6 +21,9 @@ struct Units {
 /// RAS to LPS, and back.
 Eigen::Vector3d flipped(const Eigen::Vector3d& v);
 
+/// No place or length in a script is farther than this, mm: a slip, or numbers beyond what samples can count.
+inline constexpr double kFarthest = 1e6;
+
 /// Numbers that an argument may have.
 struct Range {
   double least = -std::numeric_limits<double>::infinity();

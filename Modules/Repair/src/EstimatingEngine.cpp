@@ -1,9 +1,24 @@
 #include "ShapeEngine.h"
+#include "sinew/Segmentation/LabelComponents.h"
 
 #include <algorithm>
 
 namespace sinew::repair {
 namespace {
+
+std::vector<VoxelBox> boxesOf(const LabelComponents& pieces) {
+  const Eigen::Vector3i size = pieces.box.upper - pieces.box.lower;
+  std::vector<Eigen::AlignedBox3i> boxes(pieces.voxels.size());
+  const std::int32_t* id = pieces.ids.data();
+  for (int k = 0; k < size.z(); ++k)
+    for (int j = 0; j < size.y(); ++j)
+      for (int i = 0; i < size.x(); ++i, ++id)
+        if (*id >= 0) boxes[static_cast<std::size_t>(*id)].extend(Eigen::Vector3i(i, j, k));
+  std::vector<VoxelBox> result;
+  for (const Eigen::AlignedBox3i& box : boxes)
+    result.push_back({pieces.box.lower + box.min(), pieces.box.lower + box.max() + Eigen::Vector3i::Ones()});
+  return result;
+}
 
 class EstimatingEngine : public ShapeEngine {
  public:
@@ -39,7 +54,21 @@ class EstimatingEngine : public ShapeEngine {
     return made(std::move(shape));
   }
 
-  std::vector<ShapePtr> components(const ShapePtr& shape) override { return {shape}; }
+  /// Of a tissue as it was read the pieces of its voxels; of others, the whole.
+  std::vector<ShapePtr> components(const ShapePtr& shape) override {
+    if (!shape->untouched) return {shape};
+    const Tissue& tissue = input_.tissues[static_cast<std::size_t>(shape->origin)];
+    const LabelComponents pieces = labelComponents(input_, tissue);
+    const std::vector<VoxelBox> boxes = boxesOf(pieces);
+    std::vector<ShapePtr> shapes;
+    for (std::size_t p = 0; p < boxes.size(); ++p) {
+      Shape piece = descendant(shape);
+      piece.box = physicalBox(input_.geometry, boxes[p]);
+      piece.volume = static_cast<double>(pieces.voxels[p]) * input_.geometry.voxelVolume();
+      shapes.push_back(made(std::move(piece)));
+    }
+    return shapes;
+  }
 
   ShapePtr moved(const ShapePtr& parent, const Eigen::Affine3d& motion) override {
     if (parent->solid) return solid(sinew::moved(*parent->solid, motion), parent->blend);

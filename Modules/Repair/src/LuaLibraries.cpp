@@ -51,7 +51,7 @@ constexpr Refused kRefusedMath[] = {
 /// Of the basic library; what shows addresses or the order of hash tables is replaced.
 constexpr const char* kBasics[] = {"assert", "error", "ipairs", "rawequal", "rawlen", "select", "tonumber"};
 /// Functions with loops over a table that the count of instructions does not see.
-constexpr const char* kTableLoops[] = {"concat", "insert", "remove", "sort", "unpack"};
+constexpr const char* kTableLoops[] = {"concat", "insert", "remove", "unpack"};
 
 int refuse(lua_State* state) {
   return raise(state, static_cast<const char*>(lua_touserdata(state, lua_upvalueindex(1))));
@@ -65,15 +65,44 @@ int forward(lua_State* state) {
   return lua_gettop(state);
 }
 
-int boundedTableLoop(lua_State* state) {
-  // Entries of a sparse table can be as many as there are integers.
+/// Length of the list at a place of the stack. Raises an error where a sparse table seems to have as many
+/// entries as there are integers.
+lua_Integer boundedLength(lua_State* state, int list) {
   constexpr lua_Unsigned most = 10'000'000;
-  if (lua_type(state, 1) == LUA_TTABLE) {
-    const lua_Unsigned length = lua_rawlen(state, 1);
-    if (length > most) return raise(state, "the table is too long");
-    charge(state, static_cast<std::int64_t>(length) / 4);
-  }
+  const lua_Unsigned length = lua_rawlen(state, list);
+  if (length > most) raise(state, "the table is too long");
+  return static_cast<lua_Integer>(length);
+}
+
+int boundedTableLoop(lua_State* state) {
+  if (lua_type(state, 1) == LUA_TTABLE) charge(state, boundedLength(state, 1) / 4);
   return forward(state);
+}
+
+bool isLess(lua_State* state, int a, int b) { return lua_compare(state, a, b, LUA_OPLT) != 0; }
+
+/// By the function at place 2.
+bool isLessForScript(lua_State* state, int a, int b) {
+  a = lua_absindex(state, a);
+  b = lua_absindex(state, b);
+  lua_pushvalue(state, 2);
+  lua_pushvalue(state, a);
+  lua_pushvalue(state, b);
+  lua_call(state, 2, 1);
+  const bool less = lua_toboolean(state, -1) != 0;
+  lua_pop(state, 1);
+  return less;
+}
+
+/// table.sort, whose own one asks the clock where to cut.
+int sort(lua_State* state) {
+  luaL_checktype(state, 1, LUA_TTABLE);
+  const bool own = !lua_isnoneornil(state, 2);
+  if (own) luaL_checktype(state, 2, LUA_TFUNCTION);
+  const lua_Integer count = boundedLength(state, 1);
+  charge(state, 8 * count);
+  sortList(state, 1, count, own ? isLessForScript : isLess);
+  return 0;
 }
 
 /// string.format, without what would show an address.
@@ -104,41 +133,6 @@ bool precedes(lua_State* state, int a, int b) {
   return order != 0 ? order < 0 : sizeA < sizeB;
 }
 
-/// Sinks entry `root` of the heap in the list at `list`, which has `count` entries.
-void sink(lua_State* state, int list, lua_Integer root, lua_Integer count) {
-  for (lua_Integer child = 2 * root; child <= count; root = child, child = 2 * root) {
-    lua_rawgeti(state, list, child);
-    if (child < count) {
-      lua_rawgeti(state, list, child + 1);
-      if (precedes(state, -2, -1)) {
-        ++child;
-        lua_remove(state, -2);
-      } else {
-        lua_pop(state, 1);
-      }
-    }
-    lua_rawgeti(state, list, root);
-    if (!precedes(state, -1, -2)) {
-      lua_pop(state, 2);
-      return;
-    }
-    lua_rawseti(state, list, child);
-    lua_rawseti(state, list, root);
-  }
-}
-
-/// Heap sort, on Lua's stack alone: nothing that a longjmp could skip.
-void sortKeys(lua_State* state, int list, lua_Integer count) {
-  for (lua_Integer root = count / 2; root >= 1; --root) sink(state, list, root, count);
-  for (lua_Integer end = count; end > 1; --end) {
-    lua_rawgeti(state, list, 1);
-    lua_rawgeti(state, list, end);
-    lua_rawseti(state, list, 1);
-    lua_rawseti(state, list, end);
-    sink(state, list, 1, end - 1);
-  }
-}
-
 /// C function: the next key that is still there, and its value. Upvalues: table, keys, position.
 int nextPair(lua_State* state) {
   for (lua_Integer n = lua_tointeger(state, lua_upvalueindex(3)) + 1;; ++n) {
@@ -166,7 +160,7 @@ int sortedPairs(lua_State* state) {
     lua_rawseti(state, 2, ++count);
   }
   charge(state, 8 * count);
-  sortKeys(state, 2, count);
+  sortList(state, 2, count, precedes);
   lua_pushinteger(state, 0);
   lua_pushcclosure(state, nextPair, 3);
   return 1;
@@ -216,6 +210,8 @@ void addLibraries(lua_State* state, int globals) {
   luaL_requiref(state, LUA_TABLIBNAME, luaopen_table, 0);
   replaceRefused(state, kRefusedTable);
   for (const char* name : kTableLoops) wrap(state, name, boundedTableLoop);
+  lua_pushcfunction(state, sort);
+  lua_setfield(state, -2, "sort");
   lua_setfield(state, globals, LUA_TABLIBNAME);
   luaL_requiref(state, LUA_MATHLIBNAME, luaopen_math, 0);
   makeDeterministic(state);

@@ -7,6 +7,7 @@
 #include "sinew/Segmentation/NearestNames.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace sinew {
@@ -112,6 +113,9 @@ RepairResult computed(const Segmentation& input, const std::string& script, cons
 
 RepairResult repairSegmentation(const Segmentation& input, const std::string& script,
                                 const RepairOptions& options) {
+  if (!(options.gridSpacing >= 0) || !std::isfinite(options.gridSpacing))
+    throw std::invalid_argument("repairSegmentation: the grid spacing is " + toText(options.gridSpacing) +
+                                " mm; allowed: 0 and above");
   return options.check ? checked(input, script, options) : computed(input, script, options);
 }
 

@@ -52,6 +52,13 @@ int readUnknownGlobal(lua_State* state);
 int typeOfValue(lua_State* state);
 int textOfValue(lua_State* state);
 
+// LuaSort.cpp
+/// Sorts entries 1 to `count` of the list at a place of the stack; precedes(state, a, b) compares two places.
+/// Heap sort, on Lua's stack alone: it ends whatever `precedes` says, and there is nothing that a longjmp
+/// could skip.
+void sortList(lua_State* state, int list, lua_Integer count,
+              bool (*precedes)(lua_State* state, int a, int b));
+
 // LuaLibraries.cpp
 /// Leaves a table with all globals of a script on the stack.
 void pushGlobals(lua_State* state);

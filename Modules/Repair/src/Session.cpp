@@ -19,6 +19,14 @@ Value settingValue(const std::string& text) {
   return text;
 }
 
+/// Whether a shape is one of the arguments.
+bool holds(const Values& arguments, const Shape* shape) {
+  return std::ranges::any_of(arguments, [&](const Value& value) {
+    const ShapePtr* argument = std::get_if<ShapePtr>(&value);
+    return argument != nullptr && argument->get() == shape;
+  });
+}
+
 void checkSettings(const std::map<std::string, std::string>& settings) {
   for (const auto& [name, value] : settings)
     for (const Binding& binding : allBindings())
@@ -62,10 +70,9 @@ std::optional<Value> Session::setting(const std::string& name) {
   return settingValue(found->second);
 }
 
-void Session::heartbeat(int line) { progress(line, operation_); }
+void Session::heartbeat(int line) { progress(line, "script"); }
 
 void Session::progress(int line, const std::string& operation) {
-  operation_ = operation;
   done_ = std::max(done_, std::min(1., line / lines_));
   if (!options_.progress) return;
   try {
@@ -84,7 +91,7 @@ std::optional<ShapeSummary> Session::summaryOf(const Value& value) {
 void Session::record(const Binding& binding, const Values& arguments, const Values& results, int line,
                      double seconds) {
   const Shape* made = madeShape(results);
-  if (made == nullptr || !made->levelSet) return;
+  if (made == nullptr || !made->levelSet || holds(arguments, made)) return;
   RepairOperation operation{line, spokenName(binding), made->name, seconds, {}, {}};
   if (!arguments.empty()) operation.before = summaryOf(arguments.front());
   if (results.size() == 1) operation.after = summaryOf(results.front());

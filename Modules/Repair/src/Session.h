@@ -69,7 +69,6 @@ class Session : public ScriptHost {
   const RepairOptions& options_;
   std::unique_ptr<ShapeEngine> engine_;
   std::set<std::string> settingsRead_;
-  std::string operation_ = "start";  ///< that runs
   double lines_ = 1;                 ///< of the script
   double done_ = 0;
   bool ras_ = false;

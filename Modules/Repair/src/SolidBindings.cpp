@@ -120,7 +120,14 @@ std::filesystem::path meshFile(Call& call, const std::string& name) {
 Values meshOf(Call& call) {
   const Fields fields = call.fields(0, {"file"});
   const std::filesystem::path file = meshFile(call, call.reader().text("file", fields["file"]));
-  return {call.engine().mesh(readTriangleMesh(file))};
+  const TriangleMesh surface = readTriangleMesh(file);
+  try {
+    return {call.engine().mesh(surface)};
+  } catch (const ScriptError&) {
+    throw;
+  } catch (const std::invalid_argument& error) {
+    throw ScriptError(file.string() + ": " + error.what());
+  }
 }
 
 constexpr Binding kSolids[] = {

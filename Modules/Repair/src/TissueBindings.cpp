@@ -84,6 +84,14 @@ int replacedTissue(Call& call, const std::string& name) {
   return -1;
 }
 
+/// A new name that differs from a tissue's in case only may be a slip.
+void tellLikeness(Call& call, const std::string& name) {
+  for (const Tissue& tissue : call.session.input().tissues)
+    if (looseName(tissue.name) == looseName(name))
+      call.session.tell("save " + quoted(name, '"') + ": a new tissue; " + quoted(tissue.name) +
+                        " stays as it is");
+}
+
 std::array<double, 3> colorOf(Call& call, const Value& value) {
   const Table& table = call.reader().table("color", value);
   if (table.items.size() != 3) call.reader().refuse("color has to be {red, green, blue}, each from 0 to 1");
@@ -107,6 +115,7 @@ Values saveOf(Call& call) {
     if (fields.has("color")) saving.color = colorOf(call, fields["color"]);
   }
   call.atMost(3);
+  if (saving.tissue < 0) tellLikeness(call, name);
   Wishes& wishes = call.session.wishes;
   std::erase_if(wishes.savings, [&](const Saving& older) { return older.name == saving.name; });
   wishes.removed.erase(saving.tissue);
@@ -174,7 +183,7 @@ Values settingOf(Call& call) {
 Values printOf(Call& call) {
   std::string line;
   for (int n = 0; n < call.count(); ++n) {
-    if (n > 0) line += '\t';
+    if (n > 0) line += ' ';
     line += toText(call[n]);
   }
   call.session.print(line);

@@ -28,7 +28,8 @@ TEST(ScriptErrors, WrongTypesAndUnits) {
   EXPECT_EQ(errorOf("sphere{center={1, 2}, radius=1}"),
             "script.lua:1: sphere: center is a table; allowed: three numbers {x, y, z} in mm");
   EXPECT_EQ(errorOf("sphere{center={1, 2, 'x'}, radius=1}"),
-            "script.lua:1: sphere: number 3 of center is the text \"x\"; allowed: a number");
+            "script.lua:1: sphere: number 3 of center is the text \"x\"; allowed: a number from "
+            "-1000000 on, up to 1000000");
   EXPECT_EQ(errorOf("sphere{center={1, 2, 0/0}, radius=1}").find("number 3 of center is"), 22u);
   EXPECT_EQ(
       errorOf("local b = tissue 'biceps'\nb:offset 'thick'"),
@@ -54,6 +55,14 @@ TEST(ScriptErrors, WrongTypesAndUnits) {
       "script.lua:1: smooth: preserve is \"size\"; allowed: \"none\", \"volume\", \"topology\", \"both\"");
   EXPECT_EQ(errorOf("coordinates 'XYZ'"),
             "script.lua:1: coordinates: the system is \"XYZ\"; allowed: \"LPS\", \"RAS\"");
+}
+
+TEST(ScriptErrors, PlacesFarFromAnyBody) {
+  EXPECT_EQ(errorOf("sphere{center={1, 2, 3e9}, radius=1}"),
+            "script.lua:1: sphere: number 3 of center is 3000000000; allowed: a number from -1000000 on, up "
+            "to 1000000");
+  EXPECT_EQ(errorOf("sphere{center={1, 2, 3}, radius=1e30}"),
+            "script.lua:1: sphere: radius is 1e+30, which is no size of a body");
 }
 
 TEST(ScriptErrors, MissingAndUnknownArguments) {
@@ -125,7 +134,7 @@ TEST(ScriptErrors, NamesToSave) {
 TEST(ScriptErrors, Settings) {
   EXPECT_EQ(printed("print(radius, deep, where, setting('radius', 3), setting('other', 'none'))",
                     {.settings = {{"radius", "2.5"}, {"deep", "true"}, {"where", "left"}}, .check = true}),
-            Lines{"2.5\ttrue\tleft\t2.5\tnone"});
+            Lines{"2.5 true left 2.5 none"});
   EXPECT_EQ(errorOf("setting 'radius'"),
             "script.lua:1: setting: needs --set radius=VALUE, or a value to use without");
   EXPECT_EQ(errorOf("", {.settings = {{"tissue", "1"}}, .check = true}),

@@ -35,7 +35,8 @@ struct RepairOptions {
   double gridSpacing = 0;      ///< of the level sets, mm; 0: defaultGridSpacing
   double smoothingVoxels = 1;  ///< of labels to level sets, see LevelSetFromLabelsOptions
   /// Only try the script: names, arguments and tissues are resolved, no level set is computed. Measures are
-  /// then estimates from voxels and boxes, and `components` gives a shape as one piece.
+  /// then estimates from voxels and boxes; `components` counts the pieces of a tissue's voxels, and takes any
+  /// other shape for one piece.
   bool check = false;
   bool levelSets = false;  ///< keep those of the saved tissues in the result
   RepairLimits limits = {};
