@@ -1,4 +1,3 @@
-#include "SanitizerOptions.h"
 #include "Targets.h"
 #include "sinew/TestSupport/Files.h"
 

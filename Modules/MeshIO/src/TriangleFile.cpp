@@ -1,12 +1,12 @@
 #include "sinew/MeshIO/TriangleFile.h"
 
+#include "ObjFile.h"
 #include "PlyFile.h"
+#include "StlFile.h"
 #include "VtkReading.h"
 
 #include <vtkCellArray.h>
-#include <vtkOBJReader.h>
 #include <vtkPolyData.h>
-#include <vtkSTLReader.h>
 #include <vtkSmartPointer.h>
 #include <vtkXMLPolyDataReader.h>
 
@@ -38,9 +38,8 @@ std::vector<Triangle> trianglesOf(vtkPolyData* polygons, std::size_t nodes, cons
   return triangles;
 }
 
-template <class Reader>
-TriangleMesh readWith(const fs::path& file) {
-  const auto reader = vtkSmartPointer<Reader>::New();
+TriangleMesh readVtp(const fs::path& file) {
+  const auto reader = vtkSmartPointer<vtkXMLPolyDataReader>::New();
   reader->SetFileName(file.c_str());
   update(reader, file, "a surface mesh");
   TriangleMesh mesh{nodesOf(reader->GetOutput(), file), {}};
@@ -48,14 +47,13 @@ TriangleMesh readWith(const fs::path& file) {
   return mesh;
 }
 
+/// VTK 9.1 also reads the others, but crashes on damaged ones.
 struct Format {
   std::string_view extension;
   TriangleMesh (*read)(const fs::path&);
 };
-constexpr std::array<Format, 4> kFormats{{{".obj", &readWith<vtkOBJReader>},
-                                          {".ply", &readPly},
-                                          {".stl", &readWith<vtkSTLReader>},
-                                          {".vtp", &readWith<vtkXMLPolyDataReader>}}};
+constexpr std::array<Format, 4> kFormats{
+    {{".obj", &readObj}, {".ply", &readPly}, {".stl", &readStl}, {".vtp", &readVtp}}};
 
 TriangleMesh readPolygons(const fs::path& file) {
   requireReadable(file);

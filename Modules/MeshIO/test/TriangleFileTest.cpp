@@ -5,8 +5,12 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <tuple>
+#include <vector>
 
 namespace sinew {
 namespace {
@@ -57,6 +61,36 @@ TEST(TriangleFile, ReadsEveryFormat) {
   }
 }
 
+std::string binaryStl(std::uint32_t facets, const std::vector<float>& numbers, const std::string& comment) {
+  std::string bytes = comment + std::string(80 - comment.size(), ' ');
+  bytes.append(reinterpret_cast<const char*>(&facets), sizeof facets);
+  for (std::size_t facet = 0; facet + 12 <= numbers.size(); facet += 12)
+    bytes.append(reinterpret_cast<const char*>(&numbers[facet]), 48).append(2, '\0');
+  return bytes;
+}
+
+TEST(TriangleFile, ReadsBinaryStlAlsoWhenItsCommentSaysSolid) {
+  const test::TempFolder folder;
+  const std::vector<float> tet{0,   0, 0,   0, 0, 0, 0, 1.5, 0, 1.5, 0, 0,   0, 0, 0, 0,
+                               0,   0, 1.5, 0, 0, 0, 0, 1.5, 0, 0,   0, 0,   0, 0, 0, 0,
+                               1.5, 0, 1.5, 0, 0, 0, 0, 1.5, 0, 0,   0, 1.5, 0, 0, 0, 1.5};
+  for (const char* comment : {"made by hand", "solid of binary"}) {
+    test::writeBytes(folder / "tet.stl", binaryStl(4, tet, comment));
+    const TriangleMesh mesh = readTriangleMesh(folder / "tet.stl");
+    EXPECT_EQ(mesh.nodes.size(), 4u);
+    EXPECT_DOUBLE_EQ(enclosedVolume(mesh), 1.5 * 1.5 * 1.5 / 6);
+  }
+}
+
+TEST(TriangleFile, ReadsEveryWayToWriteObj) {
+  const test::TempFolder folder;
+  test::writeBytes(folder / "a.obj",
+                   "v 0 0 0 1\r\nv +1 0 0 0.5 0.5 0.5\nv 0 \\\n1e0 0\nf -3//1 -2/1 3\nv 9 9 9\nl 1 2\nf");
+  const TriangleMesh mesh = readTriangleMesh(folder / "a.obj");
+  EXPECT_EQ(mesh.nodes, (std::vector<Vector3d>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+  EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}));
+}
+
 TEST(TriangleFile, LargerPolygonsBecomeFans) {
   const test::TempFolder folder;
   test::writeBytes(folder / "pentagon.obj", "v 0 0 0\nv 2 0 0\nv 3 1 0\nv 1 2 0\nv -1 1 0\nf 1 2 3 4 5\n");
@@ -71,6 +105,35 @@ TEST(TriangleFile, PointsAtTheSamePlaceAreOneNode) {
   const TriangleMesh mesh = readTriangleMesh(folder / "seam.obj");
   EXPECT_EQ(mesh.nodes.size(), 4u);
   EXPECT_EQ(mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {1, 3, 2}}));  // the third one was a line
+}
+
+/// VTK's readers crashed on some of these, or took them for what they are not.
+TEST(TriangleFile, DamageIsNamedWithItsPlace) {
+  const test::TempFolder folder;
+  const std::vector<float> nowhere{0, 0, 0, 0, 0, 0, INFINITY, 0, 0, 0, 1, 0};
+  const std::string damages = "damaged or not an .stl file (";
+  for (const auto& [name, bytes, what] :
+       std::initializer_list<std::tuple<const char*, std::string, std::string>>{
+           {"a.obj", "v 0vt 0 0\nf 1 1 1\n", "line 1: a vertex needs three finite numbers"},
+           {"a.obj", "v 0 0\n", "line 1: a vertex needs three finite numbers"},
+           {"a.obj", "v 0 0 nan\n", "line 1: a vertex needs three finite numbers"},
+           {"a.obj", "v 0 0 \\\n0\nf 1 2 1\n", "line 3: a polygon names a node that is not there"},
+           {"a.obj", "v 0 0 0\nf 0 1 1\n", "line 2: a polygon names a node that is not there"},
+           {"a.obj", "v 0 0 0\nf -2 1 1\n", "line 2: a polygon names a node that is not there"},
+           {"a.obj", "v 0 0 0\nf 99999999999999999999 1 1\n",
+            "line 2: a polygon names a node that is not there"},
+           {"a.obj", "v 0 0 0\nf x 1 1\n", "line 2: a polygon names a node that is not there"},
+           {"a.stl", binaryStl(1u << 31, {}, ""), damages + "it is too short for its 2147483648 facets)"},
+           {"a.stl", binaryStl(1, nowhere, ""), "facet 0 has no finite coordinates"},
+           {"a.stl", "solid a\n" + stlFacet(kO, kX, "0 1 x"), "facet 0 has no finite coordinates"},
+           {"a.stl", "solid a\nvertex 0 0 0\nendfacet\n", "line 3: a facet has not three corners"},
+           {"a.stl", "solid a\nvertex 0 0 0\nendsolid\n", damages + "it ends too early)"},
+           {"a.stl", "solid a\n" + stlFacet(kO, kX, kY), damages + "it ends too early)"}}) {
+    test::writeBytes(folder / name, bytes);
+    const std::string message =
+        test::messageOf<std::runtime_error>([&, file = folder / name] { readTriangleMesh(file); });
+    EXPECT_EQ(message, (folder / name).string() + ": " + what) << bytes;
+  }
 }
 
 TEST(TriangleFile, WhatCannotBeReadIsNamedInOneLine) {

@@ -45,6 +45,13 @@ constexpr Rescale kRescale[]{rescale<std::uint8_t>,  rescale<std::int8_t>,   res
                          std::to_string(payload.bytes) + " bytes can be read; export the segmentation again");
 }
 
+/// The header was read twice, by Sinew and by ITK's libraries, which differ on damaged ones.
+void requireSize(const fs::path& file, std::uint64_t bytes, const ImagePayload& payload) {
+  if (bytes != payload.bytes)
+    text::refuse(file, "its header contradicts itself: its voxels take " + std::to_string(bytes) + " or " +
+                           std::to_string(payload.bytes) + " bytes; export the segmentation again");
+}
+
 }  // namespace
 
 void requirePlausibleSize(const fs::path& file, const ImagePayload& payload) {
@@ -62,11 +69,12 @@ std::vector<std::int32_t> readPayload(const fs::path& file, const ImageGeometry&
   constexpr std::size_t chunk = 1 << 14;  // voxels
   const std::size_t valueBytes = bytesOf(payload.type);
   const bool scaled = payload.slope != 1 || payload.intercept != 0;
+  const auto voxels = static_cast<std::size_t>(geometry.voxelCount());
+  requireSize(file, voxels * valueBytes, payload);
   requirePlausibleSize(file, payload);
   UnpackStream stream(payload.file, payload.offset, payload.compressed);
   stream.skip(payload.skip);
 
-  const auto voxels = static_cast<std::size_t>(geometry.voxelCount());
   std::vector<std::int32_t> labels;
   labels.reserve(voxels);
   std::vector<std::byte> stored(chunk * valueBytes);

@@ -96,7 +96,9 @@ void requireLabels(const fs::path& file, const ImageIO& io, bool list, bool laye
   }
 }
 
+/// ITK's libraries may take a damaged header for another shape than readImageHeader did.
 ImageGeometry geometry(const fs::path& file, const ImageIO& io) {
+  requireVolume(file, sizes(io));
   ImageGeometry result;
   for (int axis = 0; axis < 3; ++axis) {
     // As itk::ImageFileReader: a negative spacing turns its axis around.
@@ -180,7 +182,7 @@ LabelImage readNrrd(const fs::path& file, const ImageHeader& header, bool layere
     text::refuse(file, "its header cannot be read (" + cause(exception) +
                            "); correct it or export the segmentation again");
   }
-  requireVolume(file, sizes(*io));
+  requireVolume(file, sizes(*io));  // the number of axes is told before the kind of voxels
   requireLabels(file, *io, header.list, layered);
   LabelImage image{.geometry = geometry(file, *io), .layers = {}};
   if (header.payload && io->GetNumberOfComponents() == 1) {

@@ -115,6 +115,11 @@ std::vector<BadFile> badFiles() {
       {"MetaImage data file missing", "a.mhd", test::meta({.dataFile = "b.zraw"}, ""), "`b.zraw` is missing"},
       {"MetaImage list of files", "a.mhd", test::meta({.dataFile = "LIST"}, ""), "many files"},
 
+      // MetaIO also takes a colon for an equals sign, and the last of two fields.
+      {"MetaImage of two dimensions", "a.mha", test::meta({.extra = "NDims := 1\n"}, raw), "is a 1-D image"},
+      {"MetaImage of two sizes", "a.mha", test::meta({.type = "MET_SHORT\nDimSize: 4 3 9"}, raw),
+       "its voxels take 216 or 48 bytes"},
+
       {"2-D NRRD", "a.nrrd", test::nrrd({.dimension = "2", .sizes = "4 6", .geometry = "", .kinds = ""}, raw),
        "2-D"},
       {"2-D NIfTI", "a.nii", test::nifti({.dim = {4, 6}}, raw), "2-D"},
