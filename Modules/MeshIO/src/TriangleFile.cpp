@@ -39,7 +39,7 @@ std::vector<Triangle> trianglesOf(vtkPolyData* polygons, std::size_t nodes, cons
 }
 
 TriangleMesh readVtp(const fs::path& file) {
-  const auto reader = vtkSmartPointer<vtkXMLPolyDataReader>::New();
+  const auto reader = vtkSmartPointer<WithoutPointData<vtkXMLPolyDataReader>>::New();
   reader->SetFileName(file.c_str());
   update(reader, file, "a surface mesh");
   TriangleMesh mesh{nodesOf(reader->GetOutput(), file), {}};

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <vtkAlgorithm.h>
+#include <vtkDataArraySelection.h>
 #include <vtkErrorCode.h>
 #include <vtkPointSet.h>
 
@@ -23,6 +24,26 @@ inline void requireReadable(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) fail(file, "no such file");
   if (!std::filesystem::is_regular_file(file) || !std::ifstream(file)) fail(file, "cannot be read");
 }
+
+/// A reader of VTK's XML files without point data, which Sinew has no use for. VTK 9.1 crashes when it cannot
+/// read an array of cells: its message asks the point data for the name, which therefore are the cell data
+/// here.
+template <class Reader>
+class WithoutPointData : public Reader {
+ public:
+  static WithoutPointData* New() {
+    auto* reader = new WithoutPointData;
+    reader->InitializeObjectBase();
+    return reader;
+  }
+
+ protected:
+  int ReadPieceData() override {
+    this->PointDataArraySelection->DisableAllArrays();
+    this->PointDataElements[this->Piece] = this->CellDataElements[this->Piece];
+    return Reader::ReadPieceData();
+  }
+};
 
 /// Runs a VTK reader. @param kind  what the file should be, for the message
 inline void update(vtkAlgorithm* reader, const std::filesystem::path& file, const char* kind) {

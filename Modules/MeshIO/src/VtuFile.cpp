@@ -143,7 +143,7 @@ vtkSmartPointer<vtkUnstructuredGrid> readWith(const fs::path& file) {
 vtkSmartPointer<vtkUnstructuredGrid> readGrid(const fs::path& file) {
   requireReadable(file);
   const std::string extension = file.extension().string();
-  if (extension == ".vtu") return readWith<vtkXMLUnstructuredGridReader>(file);
+  if (extension == ".vtu") return readWith<WithoutPointData<vtkXMLUnstructuredGridReader>>(file);
   if (extension == ".vtk") return readWith<vtkUnstructuredGridReader>(file);
   fail(file, "unknown kind of mesh; .vtu and .vtk can be read");
 }

@@ -179,6 +179,22 @@ TEST(ReadTetMesh, WithoutLabelsTheyAreOne) {
   EXPECT_EQ(readTetMesh(folder / "a.vtk").labels, std::vector<std::int32_t>{1});
 }
 
+/// VTK crashed on this one: it looked for the name of the array in point data that are not there.
+TEST_F(VtuFileErrors, CellArrayThatIsNoNumbers) {
+  writeBytes(folder_ / "a.vtu",
+             "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\"><UnstructuredGrid>"
+             "<Piece NumberOfPoints=\"4\" NumberOfCells=\"1\"><Points>"
+             "<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 0 1 0 0 0 "
+             "1</DataArray>"
+             "</Points><Cells>"
+             "<DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0 1 2 3</DataArray>"
+             "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">4</DataArray>"
+             "<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">10</DataArray></Cells><CellData>"
+             "<DataArray type=\"Int32\" Name=\"labels\" format=\"ascii\">seven</DataArray>"
+             "</CellData></Piece></UnstructuredGrid></VTKFile>\n");
+  expectNames(messageOfReading(folder_ / "a.vtu"), folder_ / "a.vtu");
+}
+
 TEST_F(VtuFileErrors, MissingFile) {
   const std::string message = messageOfReading(folder_ / "none.vtu");
   expectNames(message, folder_ / "none.vtu");
