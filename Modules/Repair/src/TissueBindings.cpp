@@ -39,6 +39,12 @@ std::vector<int> tissuesOf(const Segmentation& input, const std::string& pattern
   return found;
 }
 
+std::vector<std::string> tissueNames(const Segmentation& input) {
+  std::vector<std::string> names;
+  for (const Tissue& tissue : input.tissues) names.push_back(tissue.name);
+  return names;
+}
+
 /// Names and layers of several tissues.
 std::string listed(const Segmentation& input, const std::vector<int>& tissues) {
   std::string list;
@@ -51,7 +57,8 @@ std::string listed(const Segmentation& input, const std::vector<int>& tissues) {
 
 int onlyOne(Call& call, const std::vector<int>& tissues, const std::string& wish) {
   if (tissues.size() > 1)
-    call.reader().refuse(quoted(wish) + " may be " + listed(call.session.input(), tissues) + "; use an id");
+    call.reader().refuse(quoted(wish) + " may be " + listed(call.session.input(), tissues) +
+                         "; use the id or the label");
   return tissues.front();
 }
 
@@ -59,7 +66,11 @@ Values tissueOf(Call& call) {
   call.atMost(1);
   const double* label = std::get_if<double>(&call[0]);
   const std::string wish = label ? toText(*label) : call.reader().text("the name", call[0]);
-  return {call.engine().tissue(onlyOne(call, selectTissues(call.session.input(), {wish}), wish))};
+  const std::vector<int> found = tissuesOf(call.session.input(), wish);
+  if (found.empty())
+    call.reader().refuse("none fits " + quoted(wish) + "; the nearest names are " +
+                         nearestNames(wish, tissueNames(call.session.input())));
+  return {call.engine().tissue(onlyOne(call, found, wish))};
 }
 
 Values tissuesOf(Call& call) {

@@ -14,6 +14,14 @@ TEST(ScriptErrors, AnUnknownTissueIsToldTheNearest) {
       errorOf("local a = tissue 'humerus'\nlocal b = tissue 'bicep'"),
       "script.lua:2: arm.nrrd: no tissue 'bicep'; the nearest names are 'biceps', 'humerus', 'speckle'; "
       "`sinew info` lists all");
+  EXPECT_EQ(
+      errorOf("tissue 'hmerus*'"),
+      "script.lua:1: tissue: none fits 'hmerus*'; the nearest names are 'humerus', 'biceps', 'speckle'");
+  EXPECT_EQ(errorOf("tissue '*e*'"),
+            "script.lua:1: tissue: '*e*' may be 'humerus' (label 1, layer 0), 'biceps' (label 2, layer 0), "
+            "'speckle' "
+            "(label 3, layer 0); use the id or the label");
+  EXPECT_EQ(printed("print(tissue 'hum*')"), Lines{"tissue 'humerus'"});
   EXPECT_EQ(errorOf("tissue {}"), "script.lua:1: tissue: the name is a table; allowed: a text");
 }
 
