@@ -24,7 +24,6 @@ void* allocate(void* user, void* block, std::size_t oldSize, std::size_t newSize
   }
   const auto growth = static_cast<std::int64_t>(newSize) - before;
   if (growth > machine.options.bytes - machine.bytes) {
-    machine.outOfMemory = true;
     if (machine.state != nullptr) machine.line = currentLine(machine.state);
     return nullptr;
   }
