@@ -1,6 +1,6 @@
 #include "ObjFile.h"
 
-#include "VtkReading.h"
+#include "FileFailure.h"
 #include "Words.h"
 
 #include <cmath>

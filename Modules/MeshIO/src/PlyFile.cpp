@@ -1,11 +1,12 @@
 #include "PlyFile.h"
 
-#include "VtkReading.h"
+#include "FileFailure.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <charconv>
 #include <cmath>
-#include <cstring>
 #include <iterator>
 
 namespace sinew {

@@ -1,6 +1,6 @@
 #include "StlFile.h"
 
-#include "VtkReading.h"
+#include "FileFailure.h"
 #include "Words.h"
 
 #include <algorithm>

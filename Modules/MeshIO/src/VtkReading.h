@@ -1,5 +1,6 @@
 #pragma once
 
+#include "FileFailure.h"
 #include "VtkErrorTrap.h"
 
 #include <Eigen/Core>
@@ -8,22 +9,10 @@
 #include <vtkErrorCode.h>
 #include <vtkPointSet.h>
 
-#include <filesystem>
-#include <fstream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace sinew {
-
-[[noreturn]] inline void fail(const std::filesystem::path& file, const std::string& what) {
-  throw std::runtime_error(file.string() + ": " + what);
-}
-
-inline void requireReadable(const std::filesystem::path& file) {
-  if (!std::filesystem::exists(file)) fail(file, "no such file");
-  if (!std::filesystem::is_regular_file(file) || !std::ifstream(file)) fail(file, "cannot be read");
-}
 
 /// A reader of VTK's XML files without point data, which Sinew has no use for. VTK 9.1 crashes when it cannot
 /// read an array of cells: its message asks the point data for the name, which therefore are the cell data

@@ -43,7 +43,7 @@ class Writer {
     auto bytes = std::bit_cast<std::array<char, sizeof(Number)>>(number);
     if ((format_ == "binary_big_endian") != (std::endian::native == std::endian::big))
       std::ranges::reverse(bytes);
-    bytes_.append(bytes.begin(), bytes.end());
+    bytes_.append(bytes.data(), bytes.size());
   }
   const std::string& bytes() const { return bytes_; }
 

@@ -2,7 +2,6 @@
 
 #include "Binding.h"
 #include "sinew/LevelSet/Csg.h"
-#include "sinew/LevelSet/LevelSetFromField.h"
 #include "sinew/LevelSet/LevelSetFromLabels.h"
 #include "sinew/LevelSet/LevelSetFromTriangles.h"
 #include "sinew/LevelSet/Redistance.h"
@@ -152,9 +151,7 @@ ShapePtr ComputingEngine::mesh(const TriangleMesh& mesh) {
   AlignedBox3d box;
   for (const Vector3d& node : mesh.nodes) box.extend(node);
   makeRoomFor(box);
-  const LevelSet onItsOwn = levelSetFromTriangles({mesh.nodes, mesh.triangles},
-                                                  {.spacing = lattice_.spacing, .bandVoxels = kBandSamples});
-  return made({}, resampled(fieldFromLevelSet(onItsOwn), lattice_, band_), true);
+  return made({}, levelSetFromTriangles({mesh.nodes, mesh.triangles}, lattice_, band_), true);
 }
 
 ShapePtr ComputingEngine::combined(Csg operation, const ShapePtr& a, const ShapePtr& b, double blend) {
