@@ -1,8 +1,8 @@
 #include <cstdlib>
 #include <new>
 
-// A header may promise any size. What is beyond 1 GB is memory that is not there, which the readers must survive:
-// AddressSanitizer's own `new` ends the program instead.
+// A header may promise any size. What is beyond 1 GB is memory that is not there, which the readers must
+// survive: AddressSanitizer's own `new` ends the program instead.
 
 extern "C" const char* __asan_default_options() {
   // ITK's and VTK's readers leak when they report errors; Sinew itself owns no bare pointer.

@@ -1,4 +1,5 @@
 #include "Laws.h"
+#include "SoundSegmentation.h"
 #include "Targets.h"
 #include "sinew/Segmentation/ReadSegmentation.h"
 #include "sinew/Segmentation/WriteSegmentation.h"
@@ -17,28 +18,6 @@ void putVoxelsBeside() {
     return true;
   }();
   static_cast<void>(once);
-}
-
-void requireSoundTissue(const Segmentation& segmentation, const Tissue& tissue) {
-  require(tissue.layer >= 0 && tissue.layer < static_cast<int>(segmentation.layers.size()),
-          "a tissue lies on no layer");
-  require(tissue.label != 0, "a tissue is the background");
-  require(tissue.voxels > 0 && !tissue.box.empty(), "a tissue of the table has no voxels");
-  require((tissue.box.lower.array() >= 0).all() &&
-              (tissue.box.upper.array() <= segmentation.geometry.size.array()).all(),
-          "a tissue reaches out of the volume");
-}
-
-void requireSound(const Segmentation& segmentation) {
-  const ImageGeometry& geometry = segmentation.geometry;
-  require(!segmentation.layers.empty() && !segmentation.tissues.empty(), "nothing was read");
-  require((geometry.size.array() > 0).all() && geometry.spacing.allFinite() &&
-              (geometry.spacing.array() > 0).all() && geometry.direction.allFinite() &&
-              geometry.origin.allFinite(),
-          "the geometry is unsound");
-  for (const auto& layer : segmentation.layers)
-    require(static_cast<std::int64_t>(layer.size()) == geometry.voxelCount(), "a layer has not all voxels");
-  for (const Tissue& tissue : segmentation.tissues) requireSoundTissue(segmentation, tissue);
 }
 
 /// What was read can be written, and reads back as it was.
@@ -66,6 +45,7 @@ bool runSegmentation(std::string_view bytes) {
   const auto segmentation =
       readAs(kName, bytes, [](const std::filesystem::path& file) { return readSegmentation(file); });
   if (!segmentation) return false;
+  require(!segmentation->tissues.empty(), "nothing was read");
   requireSound(*segmentation);
   requireRoundTrip(*segmentation);
   return true;

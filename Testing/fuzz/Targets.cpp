@@ -9,9 +9,11 @@ constexpr std::array kTargets{
     Target{"segmentation", &runSegmentation},
     Target{"label-table", &runLabelTable},
     Target{"obj", [](std::string_view bytes) { return runTriangleMesh(bytes, ".obj"); }},
+    Target{"ply", [](std::string_view bytes) { return runTriangleMesh(bytes, ".ply"); }},
     Target{"stl", [](std::string_view bytes) { return runTriangleMesh(bytes, ".stl"); }},
     Target{"vtp", [](std::string_view bytes) { return runTriangleMesh(bytes, ".vtp"); }},
     Target{"vtu", &runTetMesh},
+    Target{"repair-script", &runRepairScript},
 };
 
 }  // namespace

@@ -1,0 +1,1 @@
+save("a", tissue "bicep")
