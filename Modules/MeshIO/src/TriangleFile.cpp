@@ -1,5 +1,6 @@
 #include "sinew/MeshIO/TriangleFile.h"
 
+#include "GuardedXmlReader.h"
 #include "ObjFile.h"
 #include "PlyFile.h"
 #include "StlFile.h"
@@ -39,7 +40,7 @@ std::vector<Triangle> trianglesOf(vtkPolyData* polygons, std::size_t nodes, cons
 }
 
 TriangleMesh readVtp(const fs::path& file) {
-  const auto reader = vtkSmartPointer<WithoutPointData<vtkXMLPolyDataReader>>::New();
+  const auto reader = vtkSmartPointer<GuardedXmlReader<vtkXMLPolyDataReader>>::New();
   reader->SetFileName(file.c_str());
   update(reader, file, "a surface mesh");
   TriangleMesh mesh{nodesOf(reader->GetOutput(), file), {}};

@@ -5,7 +5,6 @@
 
 #include <Eigen/Core>
 #include <vtkAlgorithm.h>
-#include <vtkDataArraySelection.h>
 #include <vtkErrorCode.h>
 #include <vtkPointSet.h>
 
@@ -13,26 +12,6 @@
 #include <vector>
 
 namespace sinew {
-
-/// A reader of VTK's XML files without point data, which Sinew has no use for. VTK 9.1 crashes when it cannot
-/// read an array of cells: its message asks the point data for the name, which therefore are the cell data
-/// here.
-template <class Reader>
-class WithoutPointData : public Reader {
- public:
-  static WithoutPointData* New() {
-    auto* reader = new WithoutPointData;
-    reader->InitializeObjectBase();
-    return reader;
-  }
-
- protected:
-  int ReadPieceData() override {
-    this->PointDataArraySelection->DisableAllArrays();
-    this->PointDataElements[this->Piece] = this->CellDataElements[this->Piece];
-    return Reader::ReadPieceData();
-  }
-};
 
 /// Runs a VTK reader. @param kind  what the file should be, for the message
 inline void update(vtkAlgorithm* reader, const std::filesystem::path& file, const char* kind) {

@@ -1,5 +1,6 @@
 #include "sinew/MeshIO/VtuFile.h"
 
+#include "GuardedXmlReader.h"
 #include "VtkReading.h"
 #include "sinew/Mesher/MeshConditions.h"
 
@@ -143,7 +144,7 @@ vtkSmartPointer<vtkUnstructuredGrid> readWith(const fs::path& file) {
 vtkSmartPointer<vtkUnstructuredGrid> readGrid(const fs::path& file) {
   requireReadable(file);
   const std::string extension = file.extension().string();
-  if (extension == ".vtu") return readWith<WithoutPointData<vtkXMLUnstructuredGridReader>>(file);
+  if (extension == ".vtu") return readWith<GuardedXmlReader<vtkXMLUnstructuredGridReader>>(file);
   if (extension == ".vtk") return readWith<vtkUnstructuredGridReader>(file);
   fail(file, "unknown kind of mesh; .vtu and .vtk can be read");
 }

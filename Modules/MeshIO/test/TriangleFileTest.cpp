@@ -136,6 +136,21 @@ TEST(TriangleFile, DamageIsNamedWithItsPlace) {
   }
 }
 
+/// VTK took the bytes of so many corners for none, and wrote behind them.
+TEST(TriangleFile, OffsetsBeyondAnyMemoryAreDamage) {
+  const test::TempFolder folder;
+  std::string bytes = kVtp;
+  for (const auto& [before, after] :
+       {std::pair("3 6 9 12", "3 6 9 2305843009213693952"),  // 2^61, 8 bytes each
+        {"Int32", "Int64"},
+        {"Int32", "Int64"}})
+    bytes.replace(bytes.find(before), std::string(before).size(), after);
+  test::writeBytes(folder / "a.vtp", bytes);
+  const std::string message =
+      test::messageOf<std::runtime_error>([&] { readTriangleMesh(folder / "a.vtp"); });
+  EXPECT_TRUE(message.starts_with((folder / "a.vtp: damaged or not a surface mesh (").string())) << message;
+}
+
 TEST(TriangleFile, WhatCannotBeReadIsNamedInOneLine) {
   const test::TempFolder folder;
   test::writeBytes(folder / "empty.obj", "");

@@ -98,13 +98,15 @@ void requireLabels(const fs::path& file, const ImageIO& io, bool list, bool laye
 
 /// ITK's libraries may take a damaged header for another shape than readImageHeader did.
 ImageGeometry geometry(const fs::path& file, const ImageIO& io) {
-  requireVolume(file, sizes(io));
+  const auto shape = sizes(io);
+  requireVolume(file, shape);
+  volumeBytes(file, shape, 1);
   ImageGeometry result;
   for (int axis = 0; axis < 3; ++axis) {
     // As itk::ImageFileReader: a negative spacing turns its axis around.
     const double spacing = io.GetSpacing(axis), sign = spacing < 0 ? -1 : 1;
     requireSpacing(file, spacing, axis, "as ITK reads it");
-    result.size[axis] = static_cast<int>(io.GetDimensions(axis));
+    result.size[axis] = static_cast<int>(shape[axis]);
     result.spacing[axis] = sign * spacing;
     result.origin[axis] = io.GetOrigin(axis);
     const std::vector<double> direction = io.GetDirection(axis);

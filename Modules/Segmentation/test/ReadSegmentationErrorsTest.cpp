@@ -119,6 +119,9 @@ std::vector<BadFile> badFiles() {
       {"MetaImage of two dimensions", "a.mha", test::meta({.extra = "NDims := 1\n"}, raw), "is a 1-D image"},
       {"MetaImage of two sizes", "a.mha", test::meta({.type = "MET_SHORT\nDimSize: 4 3 9"}, raw),
        "its voxels take 216 or 48 bytes"},
+      {"MetaImage of a huge second size", "a.mha",
+       test::meta({.type = "MET_SHORT\nDimSize: 2000000000 2000000000 2000000000"}, raw),
+       "more than any memory holds"},
 
       {"2-D NRRD", "a.nrrd", test::nrrd({.dimension = "2", .sizes = "4 6", .geometry = "", .kinds = ""}, raw),
        "2-D"},
