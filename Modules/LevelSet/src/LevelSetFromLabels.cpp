@@ -1,6 +1,7 @@
 #include "sinew/LevelSet/LevelSetFromLabels.h"
 
 #include "GridPlan.h"
+#include "SimplePoint.h"
 #include "sinew/LevelSet/BandDistance.h"
 #include "sinew/LevelSet/FieldResampling.h"
 #include "sinew/LevelSet/FieldVolume.h"
@@ -168,6 +169,26 @@ void moveSurface(DenseField& phi, float offset, float band) {
   });
 }
 
+/// Sides of the grid's samples as the nearest voxels have them.
+DenseMask nearestVoxels(const Segmentation& segmentation, const Tissue& tissue, const GridPlan& plan,
+                        const DenseField& phi, const Eigen::Isometry3d& frame) {
+  const LabelCrop crop = cropLabel(segmentation, tissue, Eigen::Vector3i::Ones(), plan.lastAxis);
+  const Eigen::Affine3d toCrop = crop.indexToPhysical.inverse() * frame * Eigen::Scaling(plan.h);
+  const Eigen::Array3d last = (crop.coverage.size - Eigen::Vector3i::Ones()).cast<double>();
+  DenseMask inside(phi.size);
+  tbb::parallel_for(0, phi.size.z(), [&](int k) {
+    for (int j = 0; j < phi.size.y(); ++j) {
+      std::uint8_t* row = inside.row(j, k);
+      Eigen::Array3d at = toCrop * Eigen::Vector3d(0, j, k);
+      for (int i = 0; i < phi.size.x(); ++i, at += toCrop.linear().col(0).array()) {
+        const Eigen::Array3i voxel = (at.max(0).min(last) + 0.5).cast<int>();
+        row[i] = crop.coverage(voxel[0], voxel[1], voxel[2]) > 0 ? 1 : 0;
+      }
+    }
+  });
+  return inside;
+}
+
 }  // namespace
 
 double defaultGridSpacing(const ImageGeometry& geometry) {
@@ -188,7 +209,13 @@ DenseLevelSet denseLevelSetFromLabels(const Segmentation& segmentation, const Ti
       options.smoothingVoxels > 0 ? volumeOffset(field.phi, spacing, volume, plan.largestOffset) : 0;
   const double band = options.bandVoxels * plan.h;
   moveSurface(field.phi, static_cast<float>(offset), static_cast<float>(band));
-  if (report != nullptr) *report = {field.iso, plan.thick, volume, fieldVolume(field.phi, spacing)};
+  std::int64_t held = 0;
+  if (options.preserveTopology && plan.block == Eigen::Vector3i::Ones()) {
+    constexpr double kHoldVoxels = 0.1;  // so few samples and so near that phi need not be marched again
+    held = holdTopology(nearestVoxels(segmentation, tissue, plan, field.phi, field.frame), field.phi,
+                        static_cast<float>(kHoldVoxels * plan.h));
+  }
+  if (report != nullptr) *report = {field.iso, plan.thick, volume, fieldVolume(field.phi, spacing), held};
   return {std::move(field.phi), field.frame, plan.h, band};
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 namespace sinew {
@@ -81,40 +82,38 @@ bool isSimplePoint(Neighbourhood neighbourhood) {
   return (touchingFaces & ~piece) == 0;
 }
 
-std::int64_t holdTopology(const DenseField& kept, DenseField& wanted, float hold) {
+DenseMask insideOf(const DenseField& phi) {
+  DenseMask inside(phi.size);
+  std::ranges::transform(phi.values, inside.values.begin(), [](float value) { return value < 0 ? 1 : 0; });
+  return inside;
+}
+
+std::int64_t holdTopology(const DenseMask& inside, DenseField& wanted, float hold) {
   struct Change {
-    float depth;  ///< |kept|: how far from its surface
+    float goal;
     Eigen::Vector3i at;
   };
   std::vector<Change> changes;
-  for (int k = 0; k < kept.size.z(); ++k)
-    for (int j = 0; j < kept.size.y(); ++j) {
-      const float *a = kept.row(j, k), *b = wanted.row(j, k);
-      for (int i = 0; i < kept.size.x(); ++i)
-        if ((a[i] < 0) != (b[i] < 0)) changes.push_back({std::abs(a[i]), {i, j, k}});
+  for (int k = 0; k < wanted.size.z(); ++k)
+    for (int j = 0; j < wanted.size.y(); ++j) {
+      const std::uint8_t* side = inside.row(j, k);
+      float* phi = wanted.row(j, k);
+      for (int i = 0; i < wanted.size.x(); ++i)
+        if ((side[i] != 0) != (phi[i] < 0)) {
+          changes.push_back({phi[i], {i, j, k}});
+          phi[i] = side[i] != 0 ? -hold : hold;  // the old side, until it may change
+        }
     }
-  if (changes.empty()) return 0;
-  std::ranges::stable_sort(changes, {}, &Change::depth);
-
-  // `wanted` first takes the old side at every change, and then the new one as far as it may.
-  const auto value = [&](const Eigen::Vector3i& at) -> float& { return wanted(at.x(), at.y(), at.z()); };
-  std::vector<float> goals;
-  for (const Change& change : changes) {
-    goals.push_back(value(change.at));
-    value(change.at) = std::copysign(hold, kept(change.at.x(), change.at.y(), change.at.z()));
-  }
-  std::vector<std::size_t> waiting(changes.size());
-  for (std::size_t n = 0; n < waiting.size(); ++n) waiting[n] = n;
-  for (std::size_t before = waiting.size() + 1; waiting.size() < before;) {
-    before = waiting.size();
-    std::erase_if(waiting, [&](std::size_t n) {
-      const Eigen::Vector3i& at = changes[n].at;
-      if (!isSimplePoint(neighbourhoodOf(wanted, at))) return false;
-      value(at) = goals[n];
-      return true;
+  std::ranges::stable_sort(changes, std::greater(), [](const Change& c) { return std::abs(c.goal); });
+  for (std::size_t before = changes.size() + 1; changes.size() < before;) {
+    before = changes.size();
+    std::erase_if(changes, [&](const Change& change) {
+      const bool simple = isSimplePoint(neighbourhoodOf(wanted, change.at));
+      if (simple) wanted(change.at.x(), change.at.y(), change.at.z()) = change.goal;
+      return simple;
     });
   }
-  return static_cast<std::int64_t>(waiting.size());
+  return static_cast<std::int64_t>(changes.size());
 }
 
 }  // namespace sinew

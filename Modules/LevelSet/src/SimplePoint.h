@@ -18,10 +18,14 @@ Neighbourhood neighbourhoodOf(const DenseField& phi, const Eigen::Vector3i& at);
 /// Source: Malandain, Bertrand 1992.
 bool isSimplePoint(Neighbourhood neighbourhood);
 
-/// Gives `wanted` the topology that the signs of `kept` have: starting from those, samples take the side that
-/// `wanted` has for them only while they are simple points, those nearest to the surface of `kept` first.
-/// What must not change keeps its side, as near to the surface as `hold` (mm).
-/// @return how many samples were held.  Cost: O(samples that change side).
-std::int64_t holdTopology(const DenseField& kept, DenseField& wanted, float hold);
+/// The samples with phi < 0.
+DenseMask insideOf(const DenseField& phi);
+
+/// Gives `wanted` the topology of a mask: starting from the mask, samples take the side that `wanted` has for
+/// them only while they are simple points, those farthest from the new surface (which lie beside the old one)
+/// first. What must not change keeps its side, as near to the surface as `hold` (mm).
+/// @return how many samples were held; 0: `wanted` is as it was.
+/// Cost: O(samples), and more for each that changes side.
+std::int64_t holdTopology(const DenseMask& inside, DenseField& wanted, float hold);
 
 }  // namespace sinew

@@ -82,7 +82,7 @@ SmoothReport smooth(DenseLevelSet& levelSet, const SmoothOptions& options) {
   report.before = shapeTopology(levelSet);
   makeRoom(levelSet);
   const bool keepsTopology = keeps(options.preserve, Preserve::Topology);
-  const DenseField original = keepsTopology ? levelSet.phi : DenseField();
+  const DenseMask original = keepsTopology ? insideOf(levelSet.phi) : DenseMask();
   applySmoothing(levelSet, options);
 
   const DenseLevelSet smoothed = keepsTopology ? levelSet : DenseLevelSet();

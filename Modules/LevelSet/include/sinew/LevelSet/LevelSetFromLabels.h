@@ -13,6 +13,8 @@ struct LevelSetFromLabelsOptions {
   /// grid is coarser than these.
   double thickSliceRatio = 1.8;
   double gridSpacing = 0;  ///< mm; 0: the smallest image spacing, but not below half a voxel (cube root)
+  /// Let no piece, tunnel or cavity of the voxels come or go, where the grid is not coarser than these.
+  bool preserveTopology = false;
   bool onCommonLattice = false;  ///< samples on commonLattice of the image, so that tissues can be combined
 };
 
@@ -22,6 +24,7 @@ struct LevelSetFromLabelsReport {
   bool shapeInterpolated = false;  ///< the slice-wise path was taken
   double labelVolume = 0;          ///< voxels times voxel volume, mm^3
   double levelSetVolume = 0;       ///< volume of phi < 0, mm^3
+  std::int64_t heldSamples = 0;    ///< whose side was kept for the sake of the topology
 };
 
 /// Spacing of the level set where the options leave it open: the smallest image spacing, but not below half a
