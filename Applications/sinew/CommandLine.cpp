@@ -10,6 +10,23 @@
 #include <iostream>
 
 namespace sinew {
+namespace {
+
+/// An option whose text `parse` turns into a value, or refuses by std::invalid_argument.
+template <typename Value>
+CLI::Option* addParsed(CLI::App& app, const std::string& flags, Value& value,
+                       Value (*parse)(std::string_view), const std::string& description) {
+  const auto read = [&value, parse](const std::string& text) {
+    try {
+      value = parse(text);
+    } catch (const std::invalid_argument& error) {
+      throw CLI::ValidationError(error.what());
+    }
+  };
+  return app.add_option_function<std::string>(flags, read, description);
+}
+
+}  // namespace
 
 CommandLine::CommandLine(const std::string& command, const std::string& description)
     : app(description, "sinew " + command) {
@@ -46,16 +63,17 @@ CLI::Validator CommandLine::atLeast(double least) {
 
 CLI::Option* CommandLine::addLength(const std::string& flags, Length& length,
                                     const std::string& description) {
-  const auto parse = [&length](const std::string& text) {
-    try {
-      length = parseLength(text);
-    } catch (const std::invalid_argument& error) {
-      throw CLI::ValidationError(error.what());
-    }
-  };
-  return app.add_option_function<std::string>(flags, parse, description)
+  return addParsed(app, flags, length, parseLength, description)
       ->type_name("LENGTH")
       ->default_str(toString(length));
+}
+
+CLI::Option* CommandLine::addSmoothing(const std::string& flags, Smoothing& smoothing) {
+  return addParsed(app, flags, smoothing, parseSmoothing,
+                   "none: keep the voxels' stairs; light: a Gauss of one voxel; a time (2mm2) or a length "
+                   "(1mm, 2vox): motion by mean curvature too")
+      ->type_name("HOW")
+      ->default_str(toString(smoothing));
 }
 
 int CommandLine::run(const std::vector<std::string>& arguments, const std::function<int()>& action) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sinew/Pipeline/Length.h"
+#include "sinew/Pipeline/Smoothing.h"
 
 #include <CLI/CLI.hpp>
 
@@ -32,6 +33,8 @@ class CommandLine {
 
   /// A length bound to an option struct; its value is the default that the help shows.
   CLI::Option* addLength(const std::string& flags, Length& length, const std::string& description);
+
+  CLI::Option* addSmoothing(const std::string& flags, Smoothing& smoothing);
 
   /// Takes numbers from `least` on.
   static CLI::Validator atLeast(double least);

@@ -21,7 +21,7 @@ constexpr const char* kReportName = "report.json";
 
 struct MeshCommand {
   std::string input, folder, method = "optimization";
-  std::vector<std::string> wishes, sizes;
+  std::vector<std::string> wishes, sizes, smoothings;
   ReadSegmentationOptions reading;
   MeshTissuesOptions meshing;
 };
@@ -71,10 +71,11 @@ void addOptions(CommandLine& line, MeshCommand& command) {
                  "largest number of lattice levels; 0: as many as the sizes ask for")
       ->check(CommandLine::atLeast(0))
       ->capture_default_str();
-  app.add_option("--smoothing", meshing.levelSet.smoothingVoxels,
-                 "standard deviation of the Gauss on the labels, voxels; 0 keeps the stairs")
-      ->check(CommandLine::atLeast(0))
-      ->capture_default_str();
+  line.addSmoothing("--smoothing", meshing.smoothing);
+  app.add_option("--smooth", command.smoothings, "smoothing of one tissue; repeatable")
+      ->type_name("TISSUE=HOW")
+      ->expected(1)
+      ->take_all();
   app.add_option("--method", command.method, "how the mesh is fitted to the surface")
       ->check(CLI::IsMember({"optimization"}))
       ->capture_default_str();
@@ -87,19 +88,23 @@ void addOptions(CommandLine& line, MeshCommand& command) {
       "Exit code 0: every tissue is meshed or too small for the lattice; 1: failed, or a tissue failed.");
 }
 
-std::map<std::string, Length> parseSizes(const std::vector<std::string>& texts) {
-  std::map<std::string, Length> sizes;
+/// TISSUE=VALUE pairs of a repeatable option.
+template <typename Value>
+std::map<std::string, Value> parsePairs(const std::string& option, const std::string& form,
+                                        const std::vector<std::string>& texts,
+                                        Value (*parse)(std::string_view)) {
+  std::map<std::string, Value> values;
   for (const std::string& text : texts) {
     const auto equals = text.rfind('=');
     if (equals == text.npos || equals == 0)
-      throw CLI::ValidationError("--size", "'" + text + "' is not TISSUE=LENGTH");
+      throw CLI::ValidationError(option, "'" + text + "' is not " + form);
     try {
-      sizes[text.substr(0, equals)] = parseLength(text.substr(equals + 1));
+      values[text.substr(0, equals)] = parse(text.substr(equals + 1));
     } catch (const std::invalid_argument& error) {
-      throw CLI::ValidationError("--size", error.what());
+      throw CLI::ValidationError(option, error.what());
     }
   }
-  return sizes;
+  return values;
 }
 
 double totalSeconds(const TissueReport& report) {
@@ -195,7 +200,8 @@ std::vector<TissueReport> meshWithProgress(const CommandLine& line, const MeshCo
 
 int mesh(const CommandLine& line, MeshCommand& command) {
   const auto start = std::chrono::steady_clock::now();
-  command.meshing.sizes = parseSizes(command.sizes);
+  command.meshing.sizes = parsePairs("--size", "TISSUE=LENGTH", command.sizes, &parseLength);
+  command.meshing.smoothings = parsePairs("--smooth", "TISSUE=HOW", command.smoothings, &parseSmoothing);
   checkOutputFolder(command.folder, {kReportName}, line.common.force);
   const Segmentation segmentation = readSegmentation(command.input, command.reading);
   const std::vector<int> tissues = selectTissues(segmentation, command.wishes);

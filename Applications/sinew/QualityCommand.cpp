@@ -13,7 +13,7 @@ struct QualityCommand {
   std::string reference, tissue;
   bool histogram = false;
   ReadSegmentationOptions reading;
-  LevelSetFromLabelsOptions levelSet;
+  Smoothing smoothing;
 };
 
 std::vector<MeshAssessment> assess(const QualityCommand& command) {
@@ -24,7 +24,7 @@ std::vector<MeshAssessment> assess(const QualityCommand& command) {
   }
   const Segmentation reference = readSegmentation(command.reference, command.reading);
   for (const std::string& mesh : command.meshes)
-    assessments.push_back(assessMesh(mesh, reference, command.tissue, command.levelSet));
+    assessments.push_back(assessMesh(mesh, reference, command.tissue, command.smoothing));
   return assessments;
 }
 
@@ -144,10 +144,7 @@ int runQuality(const std::vector<std::string>& arguments) {
   app.add_option("--lut", command.reading.lut, "colour table with the names of the labels")
       ->type_name("FILE")
       ->needs(reference);
-  app.add_option("--smoothing", command.levelSet.smoothingVoxels,
-                 "standard deviation of the Gauss on the labels, voxels, as it was for the mesh")
-      ->check(CommandLine::atLeast(0))
-      ->capture_default_str();
+  line.addSmoothing("--smoothing", command.smoothing);
   app.add_flag("--histogram", command.histogram,
                "show how dihedral angles and aspect ratios are spread; by default for a single mesh");
   app.footer(

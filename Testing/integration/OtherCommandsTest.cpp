@@ -30,7 +30,7 @@ TEST(Program, HelpAndVersionAreResults) {
 TEST(Program, TheHelpShowsTheDefaults) {
   const std::string help = run({"mesh", "--help"}).out;
   for (const char* text :
-       {"--edge-length LENGTH=2vox", "--curvature FLOAT=", "--smoothing FLOAT=1", "--config FILE"})
+       {"--edge-length LENGTH=2vox", "--curvature FLOAT=", "--smoothing HOW=light", "--config FILE"})
     EXPECT_NE(help.find(text), std::string::npos) << text;
 }
 

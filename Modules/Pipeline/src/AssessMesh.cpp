@@ -2,7 +2,7 @@
 
 #include "LevelSetSurface.h"
 #include "MeasureFidelity.h"
-#include "TissuePlan.h"
+#include "TissueLevelSet.h"
 #include "WorstElements.h"
 #include "sinew/MeshIO/VtuFile.h"
 #include "sinew/Pipeline/FileNames.h"
@@ -61,21 +61,20 @@ MeshAssessment assessMesh(const std::filesystem::path& file) {
 }
 
 MeshAssessment assessMesh(const std::filesystem::path& file, const Segmentation& reference,
-                          const std::string& wish, const LevelSetFromLabelsOptions& options) {
+                          const std::string& wish, const Smoothing& smoothing) {
   const TetMesh mesh = readTetMesh(file);
   const Tissue& tissue = tissueOf(file, mesh, reference, wish);
   const MeshBoundary boundary = meshBoundary(mesh);
   MeshAssessment assessment = assess(file, mesh, boundary);
-  LevelSetFromLabelsReport volumes;
   // As `sinew mesh` makes it at its default edge length, so that the zero sets are the same.
-  MeshTissuesOptions meshing;
-  meshing.levelSet = options;
+  const MeshTissuesOptions meshing;
   const double edge = meshing.edgeLength.millimetres(reference.geometry.meanSpacing());
-  const DenseLevelSet levelSet = denseLevelSetFromLabels(
-      reference, tissue, planTissue(reference, tissue, edge, meshing).levelSet, &volumes);
-  const LevelSetSurface surface(levelSet);
-  const FidelityReport fidelity = measureFidelity(
-      mesh, boundary.triangles, {.phi = surface, .frame = levelSet.frame}, volumes, reference, tissue);
+  const TissueLevelSet made =
+      makeTissueLevelSet(reference, tissue, planTissue(reference, tissue, {edge, false, smoothing}, meshing));
+  const LevelSetSurface surface(made.levelSet);
+  const FidelityReport fidelity =
+      measureFidelity(mesh, boundary.triangles, {.phi = surface, .frame = made.levelSet.frame}, made.volumes,
+                      reference, tissue);
   assessment.tissue = tissue.name;
   assessment.fidelity = fidelity.fidelity;
   assessment.lost = fidelity.lost;

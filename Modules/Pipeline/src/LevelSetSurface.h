@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sinew/LevelSet/DenseLevelSet.h"
+#include "sinew/LevelSet/LevelSetMeasures.h"
 #include "sinew/Mesher/SignedDistance.h"
 
 #include <array>
@@ -69,10 +70,6 @@ class LevelSetSurface final : public SignedDistance {
 
 /// Shape of phi < 0 as a space, from the signs at the grid nodes on Kuhn's subdivision of the grid into tets
 /// (which has no ambiguous cases).
-struct LevelSetTopology {
-  std::int64_t components = 0;
-  std::int64_t eulerCharacteristic = 0;  ///< V - E + F of the surface phi = 0; 2 per sphere, 0 per torus
-};
 /// Cost: O(voxels of the band).
 LevelSetTopology levelSetTopology(const LevelSetSurface& surface);
 

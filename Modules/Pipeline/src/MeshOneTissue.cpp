@@ -1,10 +1,12 @@
 #include "MeshOneTissue.h"
 
+#include "Digits.h"
 #include "EdgeLengthSearch.h"
 #include "LevelSetSurface.h"
 #include "MeasureFidelity.h"
 #include "OffsetSurface.h"
 #include "QualityArrays.h"
+#include "TissueLevelSet.h"
 #include "TopologyDifferences.h"
 #include "UnderResolution.h"
 #include "VolumeOffset.h"
@@ -18,7 +20,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <new>
 #include <numeric>
 #include <stdexcept>
@@ -41,12 +42,6 @@ class Stopwatch {
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
-}
 
 std::string oneLine(std::string text) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
@@ -126,6 +121,7 @@ class TissueRun {
   struct Attempt {
     TissuePlan plan;
     LevelSetFromLabelsReport volumes;
+    SmoothingReport smoothing;
     Eigen::Isometry3d frame;
     std::unique_ptr<LevelSetSurface> surface;
     TetMesh mesh;
@@ -137,10 +133,11 @@ class TissueRun {
     attempt.plan = plan;
     advance("level set", done_);
     {
-      const DenseLevelSet levelSet =
-          denseLevelSetFromLabels(segmentation_, tissue_, plan.levelSet, &attempt.volumes);
-      attempt.frame = levelSet.frame;
-      attempt.surface = std::make_unique<LevelSetSurface>(levelSet);
+      const TissueLevelSet made = makeTissueLevelSet(segmentation_, tissue_, plan);
+      attempt.volumes = made.volumes;
+      attempt.smoothing = made.smoothing;
+      attempt.frame = made.levelSet.frame;
+      attempt.surface = std::make_unique<LevelSetSurface>(made.levelSet);
     }
     lap("level set");
     const double first = done_ + share * kLevelSetShare, last = done_ + share;
@@ -198,7 +195,9 @@ class TissueRun {
     Attempt best;
     std::optional<double> edge = job_.plan.sizes.edge;
     while (edge) {
-      const TissuePlan plan = planTrial(segmentation_, tissue_, *edge, options_);
+      TissueWish wish = job_.wish;
+      wish.edge = *edge;
+      const TissuePlan plan = planTrial(segmentation_, tissue_, wish, options_);
       const bool tried = std::ranges::count(trials, plan.sizes.edge, &SizeTrial::edge) > 0;
       if (tried) break;  // the tissue allows no larger edge length
       Attempt attempt;
@@ -218,6 +217,7 @@ class TissueRun {
   /// Moves the boundary as far as the volume asks; the best mesh. Leaves the level set behind.
   TetMesh keepVolume(Attempt attempt) {
     volumes_ = attempt.volumes;
+    report_.smoothing = attempt.smoothing;
     frame_ = attempt.frame;
     surface_ = std::move(attempt.surface);
     plan_ = attempt.plan;
@@ -320,7 +320,7 @@ class TissueRun {
     const double smallest = std::min(plan_.sizes.smallest, plan_.sizes.edge);
     for (TopologyDifference& difference : report_.topologyDifferences)
       difference.reason = difference.width < smallest
-                              ? "narrower than the smallest cubes allowed, " + number(smallest) + " mm"
+                              ? "narrower than the smallest cubes allowed, " + threeDigits(smallest) + " mm"
                               : "the cubes there are too large";
   }
 
@@ -333,7 +333,8 @@ class TissueRun {
     report_.lost.volume = volumes_.labelVolume;
     report_.message =
         "too small for the lattice: " + std::to_string(tissue_.voxels) + " voxels, " +
-        number(volumes_.labelVolume) + " mm^3, at edge length " + number(plan_.sizes.edge) + " mm; try " +
+        threeDigits(volumes_.labelVolume) + " mm^3, at edge length " + threeDigits(plan_.sizes.edge) +
+        " mm; try " +
         sizeOption(tissue_.name, std::min(plan_.sizes.edge / 2, std::cbrt(volumes_.labelVolume) / 3));
   }
 
@@ -343,11 +344,12 @@ class TissueRun {
       if (!part.empty()) text += (text.empty() ? "" : "; ") + part;
     };
     if (plan_.sizeReduced && !job_.searchSize)
-      add("edge length reduced to " + number(plan_.sizes.edge) + " mm, to fit the tissue");
+      add("edge length reduced to " + threeDigits(plan_.sizes.edge) + " mm, to fit the tissue");
     if (job_.searchSize && !hasTets(report_.quality.tets, options_.targetTets))
-      add(std::to_string(report_.quality.tets) + " tets at edge length " + number(plan_.sizes.edge) +
+      add(std::to_string(report_.quality.tets) + " tets at edge length " + threeDigits(plan_.sizes.edge) +
           " mm are as near as the search came to " + std::to_string(options_.targetTets));
     add(underResolution(report_));
+    add(smoothingWarning(report_.smoothing));
     add(volumeWarning());
     return text;
   }
@@ -357,9 +359,9 @@ class TissueRun {
     const Fidelity& fidelity = report_.fidelity;
     const double error = std::abs(fidelity.volume / fidelity.levelSetVolume - 1);
     if (options_.preserveVolume && error > kExactVolume.tolerance)
-      return "the volume could only be brought within " + number(100 * error) + " %";
+      return "the volume could only be brought within " + threeDigits(100 * error) + " %";
     if (std::abs(fidelity.levelSetVolume / fidelity.labelVolume - 1) > kLargeSmoothingError)
-      return "volume is " + number(100 * fidelity.volume / fidelity.labelVolume) +
+      return "volume is " + threeDigits(100 * fidelity.volume / fidelity.labelVolume) +
              " % of the label's; a smaller --smoothing may help";
     return "";
   }

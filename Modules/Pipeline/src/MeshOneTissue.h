@@ -11,6 +11,7 @@ struct TissueJob {
   std::size_t slot = 0;  ///< place in the list of reports
   int tissue = 0;        ///< index into the segmentation's table
   std::string file;      ///< name inside the output folder
+  TissueWish wish;
   TissuePlan plan;
   bool searchSize = false;  ///< the plan is only where the search for the wanted number of tets begins
   TissueCost cost;

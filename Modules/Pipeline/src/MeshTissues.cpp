@@ -35,20 +35,18 @@ void checkNotNegative(Length length, const std::string& what) {
     throw std::invalid_argument(what + " is " + toString(length) + ", but must not be negative");
 }
 
-/// The edge length that a tissue is to have, mm.
-struct WantedSize {
-  double edge;
-  bool own;  ///< asked for by name
-};
-
-/// The sizes of every tissue, with the wishes of the user resolved.
-std::vector<WantedSize> resolveSizes(const Segmentation& segmentation, const MeshTissuesOptions& options) {
+/// What every tissue is to have, with the wishes of the user resolved.
+std::vector<TissueWish> resolveWishes(const Segmentation& segmentation, const MeshTissuesOptions& options) {
   const double voxel = segmentation.geometry.meanSpacing();
-  std::vector<WantedSize> wanted(segmentation.tissues.size(),
-                                 {checkedLength(options.edgeLength, voxel, "the edge length"), false});
+  const double edge = checkedLength(options.edgeLength, voxel, "the edge length");
+  std::vector<TissueWish> wanted(segmentation.tissues.size(), {edge, false, options.smoothing});
   for (const auto& [wish, length] : options.sizes)
-    for (const int tissue : selectTissues(segmentation, {wish}))
-      wanted[tissue] = {checkedLength(length, voxel, "the edge length of '" + wish + "'"), true};
+    for (const int tissue : selectTissues(segmentation, {wish})) {
+      wanted[tissue].edge = checkedLength(length, voxel, "the edge length of '" + wish + "'");
+      wanted[tissue].ownEdge = true;
+    }
+  for (const auto& [wish, smoothing] : options.smoothings)
+    for (const int tissue : selectTissues(segmentation, {wish})) wanted[tissue].smoothing = smoothing;
   return wanted;
 }
 
@@ -88,18 +86,20 @@ int tissuesInFlight(const Segmentation& segmentation, const std::vector<TissueJo
   return count;
 }
 
-TissueJob makeJob(const Segmentation& segmentation, int index, const WantedSize& wanted,
+TissueJob makeJob(const Segmentation& segmentation, int index, const TissueWish& wanted,
                   const MeshTissuesOptions& options) {
   const Tissue& tissue = segmentation.tissues[index];
   TissueJob job;
   job.tissue = index;
-  job.searchSize = options.targetTets > 0 && !wanted.own;
+  job.searchSize = options.targetTets > 0 && !wanted.ownEdge;
   const double volume = static_cast<double>(tissue.voxels) * segmentation.geometry.voxelVolume();
   const auto firstTrial = [&] {
     return firstEdgeLength(surfaceArea(segmentation, tissue), volume, options.targetTets);
   };
-  job.plan = job.searchSize ? planTrial(segmentation, tissue, firstTrial(), options)
-                            : planTissue(segmentation, tissue, wanted.edge, options);
+  job.wish = wanted;
+  if (job.searchSize) job.wish.edge = firstTrial();
+  job.plan = job.searchSize ? planTrial(segmentation, tissue, job.wish, options)
+                            : planTissue(segmentation, tissue, job.wish, options);
   job.cost = estimateCost(segmentation, tissue, job.plan.sizes, job.plan.levelSet);
   return job;
 }
@@ -107,11 +107,11 @@ TissueJob makeJob(const Segmentation& segmentation, int index, const WantedSize&
 std::vector<TissueJob> jobsLargestFirst(const Segmentation& segmentation, const std::vector<int>& tissues,
                                         const MeshTissuesOptions& options) {
   checkOptions(options);
-  const std::vector<WantedSize> sizes = resolveSizes(segmentation, options);
+  const std::vector<TissueWish> wishes = resolveWishes(segmentation, options);
   const std::vector<std::string> stems = tissueFileStems(segmentation.tissues);
   std::vector<TissueJob> jobs(tissues.size());
   tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t j) {
-    jobs[j] = makeJob(segmentation, tissues[j], sizes[tissues[j]], options);
+    jobs[j] = makeJob(segmentation, tissues[j], wishes[tissues[j]], options);
     jobs[j].slot = j;
     jobs[j].file = stems[tissues[j]] + ".vtu";
   });

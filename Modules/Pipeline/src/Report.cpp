@@ -93,6 +93,10 @@ Json toJsonObject(const TissueReport& report) {
   Json seconds = Json::object();
   for (const auto& [stage, time] : report.seconds) seconds[stage] = time;
   Json topology = toJsonObject(report.topology);
+  topology["label_components"] = report.smoothing.voxels.components;
+  topology["label_cavities"] = report.smoothing.voxels.cavities;
+  topology["smoothed_components"] = report.smoothing.levelSet.components;
+  topology["smoothed_cavities"] = report.smoothing.levelSet.cavities;
   topology["level_set_components"] = report.levelSetComponents;
   topology["level_set_euler_characteristic"] = report.levelSetEuler;
   return {{"name", report.name},
@@ -119,6 +123,8 @@ Json toJsonObject(const TissueReport& report) {
 Json toJsonObject(const MeshTissuesOptions& options, double voxel) {
   Json sizes = Json::object();
   for (const auto& [wish, length] : options.sizes) sizes[wish] = length.millimetres(voxel);
+  Json smoothings = Json::object();
+  for (const auto& [wish, smoothing] : options.smoothings) smoothings[wish] = toString(smoothing);
   const double edge = options.edgeLength.millimetres(voxel);
   const double largest = options.maxEdgeLength.millimetres(voxel);
   return {{"edge_length_mm", edge},
@@ -132,7 +138,8 @@ Json toJsonObject(const MeshTissuesOptions& options, double voxel) {
           {"method", "optimization"},
           {"preserve_volume", options.preserveVolume},
           {"with_quality", options.withQuality},
-          {"smoothing_voxels", options.levelSet.smoothingVoxels},
+          {"smoothing", toString(options.smoothing)},
+          {"smoothings", smoothings},
           {"band_voxels", options.levelSet.bandVoxels},
           {"thick_slice_ratio", options.levelSet.thickSliceRatio},
           {"grid_spacing_mm", options.levelSet.gridSpacing}};

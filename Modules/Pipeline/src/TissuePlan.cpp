@@ -58,25 +58,29 @@ void planSmallestCubes(TissuePlan& plan, double voxel, double wanted) {
 
 }  // namespace
 
-TissuePlan planTissue(const Segmentation& segmentation, const Tissue& tissue, double edge,
+TissuePlan planTissue(const Segmentation& segmentation, const Tissue& tissue, const TissueWish& wish,
                       const MeshTissuesOptions& options) {
   constexpr double kLargestOverEdge = 8;
   const double voxel = segmentation.geometry.meanSpacing();
   const Extent extent = extentOf(segmentation.geometry, tissue);
   const double maximum = options.maxEdgeLength.millimetres(voxel);
-  const double largest = maximum > 0 ? maximum : kLargestOverEdge * edge;
+  const double largest = maximum > 0 ? maximum : kLargestOverEdge * wish.edge;
   TissuePlan plan;
-  plan.sizes.edge = fittingEdge(extent, voxel, edge);
+  plan.sizes.edge = fittingEdge(extent, voxel, wish.edge);
   plan.sizes.largest = std::max(plan.sizes.edge, std::min(largest, extent.largest));
-  plan.sizeReduced = plan.sizes.edge < edge;
+  plan.sizeReduced = plan.sizes.edge < wish.edge;
   plan.levelSet = levelSetOptions(segmentation.geometry, extent.mean, plan.sizes.edge, options);
+  const bool smooth = wish.smoothing.kind != Smoothing::Kind::None;
+  if (!smooth) plan.levelSet.smoothingVoxels = 0;
+  plan.levelSet.preserveTopology = smooth;
+  plan.motion = wish.smoothing.motion(voxel);
   planSmallestCubes(plan, voxel, options.minEdgeLength.millimetres(voxel));
   return plan;
 }
 
-TissuePlan planTrial(const Segmentation& segmentation, const Tissue& tissue, double edge,
+TissuePlan planTrial(const Segmentation& segmentation, const Tissue& tissue, const TissueWish& wish,
                      const MeshTissuesOptions& options) {
-  TissuePlan plan = planTissue(segmentation, tissue, edge, options);
+  TissuePlan plan = planTissue(segmentation, tissue, wish, options);
   plan.thinnest = plan.sizes.smallest = std::max(plan.sizes.smallest, kTwoLevelsDown * plan.sizes.edge);
   return plan;
 }

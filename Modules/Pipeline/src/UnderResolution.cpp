@@ -1,5 +1,6 @@
 #include "UnderResolution.h"
 
+#include "Digits.h"
 #include "TopologyDifferences.h"
 
 #include <algorithm>
@@ -13,12 +14,6 @@ constexpr double kCubesAlongPiece = 3;  // at which a lone piece of some voxels 
 
 std::string count(std::int64_t number, const std::string& what) {
   return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
-}
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return text;
 }
 
 /// Down to two significant digits.
@@ -41,14 +36,14 @@ std::string widest(const TopologyDifference& difference) {
     std::snprintf(text, sizeof text, "%.1f", x);
     place += (place.empty() ? "" : ", ") + std::string(text);
   }
-  return std::string("at its widest a ") + toString(difference.change) + ", " + number(difference.width) +
-         " mm across, at (" + place + ") mm, " + difference.reason;
+  return std::string("at its widest a ") + toString(difference.change) + ", " +
+         threeDigits(difference.width) + " mm across, at (" + place + ") mm, " + difference.reason;
 }
 
 }  // namespace
 
 std::string sizeOption(const std::string& tissue, double edge) {
-  return "--size " + quoted(tissue + "=" + number(roundedDown(edge)) + "mm");
+  return "--size " + quoted(tissue + "=" + threeDigits(roundedDown(edge)) + "mm");
 }
 
 std::string underResolution(const TissueReport& report) {
@@ -58,7 +53,8 @@ std::string underResolution(const TissueReport& report) {
 
   double edge = report.edgeLength / 2;
   if (report.lost.components > 0) {
-    add(count(report.lost.components, "piece") + " of " + number(report.lost.volume) + " mm^3 in all lost");
+    add(count(report.lost.components, "piece") + " of " + threeDigits(report.lost.volume) +
+        " mm^3 in all lost");
     const double piece = report.lost.volume / static_cast<double>(report.lost.components);
     edge = std::min(edge, std::cbrt(piece) / kCubesAlongPiece);
   }
@@ -71,7 +67,7 @@ std::string underResolution(const TissueReport& report) {
   if (!signs.empty() && !report.topologyDifferences.empty()) add(widest(report.topologyDifferences.front()));
   const double error = report.fidelity.volume / report.fidelity.levelSetVolume - 1;
   if (std::abs(error) > kVolumeError)
-    add("volume " + number(100 * std::abs(error)) + " % too " + (error < 0 ? "small" : "large"));
+    add("volume " + threeDigits(100 * std::abs(error)) + " % too " + (error < 0 ? "small" : "large"));
   return signs.empty() ? "" : "under-resolved: " + signs + "; try " + sizeOption(report.name, edge);
 }
 

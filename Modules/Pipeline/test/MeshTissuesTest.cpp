@@ -260,7 +260,7 @@ TEST(MeshTissues, APlaceWhereTheTopologyDiffersIsTold) {
   updateTissueTable(segmentation);
   const test::TempFolder folder;
   MeshTissuesOptions options = coarse();
-  options.levelSet.smoothingVoxels = 0;  // a Gauss would wear the bridge away
+  options.smoothing.kind = Smoothing::Kind::None;  // a Gauss would wear the bridge away
   const TissueReport report = meshTissues(segmentation, {0}, folder.path(), options).front();
   ASSERT_EQ(report.topologyDifferences.size(), 1u);
   EXPECT_EQ(report.topologyDifferenceCount, 1);

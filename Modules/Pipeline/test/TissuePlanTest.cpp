@@ -20,7 +20,7 @@ Segmentation plate() {
 
 TissuePlan planOf(double edge, const MeshTissuesOptions& options = {}) {
   const Segmentation segmentation = plate();
-  return planTissue(segmentation, segmentation.tissues[0], edge, options);
+  return planTissue(segmentation, segmentation.tissues[0], {.edge = edge}, options);
 }
 
 TEST(TissuePlan, TakesTheSizesThatFit) {
@@ -51,9 +51,9 @@ TEST(TissuePlan, RefinementStopsAtTheSmallestCube) {
   EXPECT_EQ(planOf(2, options).thinnest, 1.5);
   EXPECT_LT(planOf(50, options).sizes.smallest, 40);
   const Segmentation segmentation = plate();
-  EXPECT_EQ(planTrial(segmentation, segmentation.tissues[0], 12, options).sizes.smallest, 3);
-  EXPECT_EQ(planTrial(segmentation, segmentation.tissues[0], 2, options).sizes.smallest, 1.5);
-  EXPECT_EQ(planTrial(segmentation, segmentation.tissues[0], 2, {}).sizes.smallest, 1);
+  EXPECT_EQ(planTrial(segmentation, segmentation.tissues[0], {.edge = 12}, options).sizes.smallest, 3);
+  EXPECT_EQ(planTrial(segmentation, segmentation.tissues[0], {.edge = 2}, options).sizes.smallest, 1.5);
+  EXPECT_EQ(planTrial(segmentation, segmentation.tissues[0], {.edge = 2}, {}).sizes.smallest, 1);
 }
 
 TEST(TissuePlan, ASpeckMayBeRefinedOnce) {
@@ -64,11 +64,11 @@ TEST(TissuePlan, ASpeckMayBeRefinedOnce) {
   updateTissueTable(segmentation);
   MeshTissuesOptions options;
   options.minEdgeLength = Length::voxels(0.5);
-  const TissuePlan plan = planTissue(segmentation, segmentation.tissues[0], 2, options);
+  const TissuePlan plan = planTissue(segmentation, segmentation.tissues[0], {.edge = 2}, options);
   EXPECT_TRUE(plan.sizeReduced);
   EXPECT_DOUBLE_EQ(plan.sizes.edge, 1. / 3);
   EXPECT_DOUBLE_EQ(plan.sizes.smallest, 1. / 6);
-  const TissuePlan usual = planTissue(segmentation, segmentation.tissues[0], 2, {});
+  const TissuePlan usual = planTissue(segmentation, segmentation.tissues[0], {.edge = 2}, {});
   EXPECT_DOUBLE_EQ(usual.sizes.smallest, usual.levelSet.gridSpacing);
 }
 

@@ -26,12 +26,12 @@ struct MeshAssessment {
 /// @throws std::runtime_error naming the file when it cannot be read.
 MeshAssessment assessMesh(const std::filesystem::path& file);
 
-/// The same, compared with a tissue of a segmentation; the level set is made anew with `options`.
+/// The same, compared with a tissue of a segmentation; the level set is made anew.
 /// @param wish  the tissue, as in selectTissues; empty: the one whose file stem the mesh has, or else whose
 /// label
 ///              all its tets have
 /// @throws std::runtime_error; std::invalid_argument when `wish` fits none or several tissues.
 MeshAssessment assessMesh(const std::filesystem::path& file, const Segmentation& reference,
-                          const std::string& wish, const LevelSetFromLabelsOptions& options = {});
+                          const std::string& wish, const Smoothing& smoothing = {});
 
 }  // namespace sinew

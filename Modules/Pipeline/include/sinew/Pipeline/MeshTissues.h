@@ -1,10 +1,12 @@
 #pragma once
 
 #include "sinew/LevelSet/LevelSetFromLabels.h"
+#include "sinew/LevelSet/ShapeMeasures.h"
 #include "sinew/Mesher/GenerateTetMesh.h"
 #include "sinew/Mesher/MeshConditions.h"
 #include "sinew/Mesher/MeshQuality.h"
 #include "sinew/Pipeline/Length.h"
+#include "sinew/Pipeline/Smoothing.h"
 #include "sinew/Segmentation/Segmentation.h"
 
 #include <filesystem>
@@ -34,8 +36,10 @@ struct MeshTissuesOptions {
   /// Keep the level set's volume within 0.1 % instead of 0.5 %, by moving the boundary by a tenth of an edge
   /// length at most instead of a twentieth, and in up to three new meshings where that does not do.
   bool preserveVolume = false;
-  bool withQuality = false;            ///< write arrays of quality and level set to the files
-  LevelSetFromLabelsOptions levelSet;  ///< labels to distance
+  bool withQuality = false;  ///< write arrays of quality and level set to the files
+  Smoothing smoothing;
+  std::map<std::string, Smoothing> smoothings;  ///< tissue, by a wish as in selectTissues -> its own
+  LevelSetFromLabelsOptions levelSet;           ///< labels to distance
 };
 
 enum class TissueStatus { Meshed, Lost, Failed };
@@ -51,6 +55,12 @@ struct Fidelity {
   double labelVolume = 0;                                     ///< mm^3
   double levelSetVolume = 0;                                  ///< mm^3
   double dice = 0;  ///< of label voxels and voxels with their centre in the mesh
+};
+
+/// Pieces (26-connected) and cavities (6-connected) of a tissue before and after smoothing.
+struct SmoothingReport {
+  ShapeTopology voxels;    ///< as the labels have them
+  ShapeTopology levelSet;  ///< as the level set's samples have them
 };
 
 /// What the labels had and the mesh has not: 26-connected pieces of which no voxel has its centre in the
@@ -105,6 +115,7 @@ struct TissueReport {
   std::vector<WorstElement> worst;  ///< up to kRankedTets of each measure, the worst first
   MeshConditions conditions;
   MeshTopology topology;
+  SmoothingReport smoothing;
   std::int64_t levelSetComponents = 0;
   std::int64_t levelSetEuler = 0;
   std::int64_t topologyDifferenceCount = 0;
