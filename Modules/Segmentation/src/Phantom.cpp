@@ -47,20 +47,21 @@ ImageGeometry scanOf(const Eigen::AlignedBox3d& region, const Eigen::Vector3d& s
   return scan;
 }
 
-std::int32_t labelAt(const PhantomShape& shape, const Eigen::Vector3d& x) {
+std::int32_t labelAt(const PhantomShape& shape, int layer, const Eigen::Vector3d& x) {
   if (!shape.region.contains(x)) return 0;
-  const auto part = std::ranges::find_if(shape.parts, [&](const PhantomPart& p) { return p.contains(x); });
+  const auto part = std::ranges::find_if(
+      shape.parts, [&](const PhantomPart& p) { return p.layer == layer && p.contains(x); });
   return part == shape.parts.end() ? 0 : part->label;
 }
 
-std::vector<std::int32_t> sample(const PhantomShape& shape, const ImageGeometry& scan) {
+std::vector<std::int32_t> sample(const PhantomShape& shape, int layer, const ImageGeometry& scan) {
   const Eigen::Affine3d toPhysical = scan.indexToPhysical();
   std::vector<std::int32_t> voxels;
   voxels.reserve(scan.voxelCount());
   for (int k = 0; k < scan.size.z(); ++k)
     for (int j = 0; j < scan.size.y(); ++j)
       for (int i = 0; i < scan.size.x(); ++i)
-        voxels.push_back(labelAt(shape, toPhysical * Eigen::Vector3d(i, j, k)));
+        voxels.push_back(labelAt(shape, layer, toPhysical * Eigen::Vector3d(i, j, k)));
   return voxels;
 }
 
@@ -109,12 +110,17 @@ Segmentation makePhantom(const std::string& name, const PhantomOptions& options)
   Segmentation phantom;
   phantom.source = "phantom " + name;
   phantom.geometry = scanOf(shape.region, spacing, tiltDeg);
-  phantom.layers.push_back(sample(shape, phantom.geometry));
-  if (options.noise > 0) addNoise(phantom.layers[0], phantom.geometry.size, options.noise, options.seed);
+  const int layers = std::ranges::max(shape.parts, {}, &PhantomPart::layer).layer + 1;
+  for (int layer = 0; layer < layers; ++layer) {
+    phantom.layers.push_back(sample(shape, layer, phantom.geometry));
+    if (options.noise > 0)
+      addNoise(phantom.layers[layer], phantom.geometry.size, options.noise, options.seed);
+  }
   for (const PhantomPart& part : shape.parts) {
     Tissue& tissue = phantom.tissues.emplace_back();
     tissue.name = tissue.id = part.name;
     tissue.label = part.label;
+    tissue.layer = part.layer;
     tissue.color = part.color;
     tissue.named = true;
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace sinew {
@@ -209,7 +210,11 @@ PhantomShape nested() {
 }  // namespace
 
 const std::vector<PhantomShape>& phantomShapes() {
-  static const std::vector<PhantomShape> shapes{upperArm(), thin(), sphere(), torus(), nested()};
+  static const std::vector<PhantomShape> shapes = [] {
+    std::vector<PhantomShape> all{upperArm(), thin(), sphere(), torus(), nested()};
+    std::ranges::move(damagedPhantoms(), std::back_inserter(all));
+    return all;
+  }();
   return shapes;
 }
 

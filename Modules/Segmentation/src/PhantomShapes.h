@@ -16,9 +16,10 @@ struct PhantomPart {
   std::string name;
   std::array<double, 3> color;
   std::function<bool(const Eigen::Vector3d& x)> contains;
+  int layer = 0;
 };
 
-/// An analytic phantom: where parts overlap, the one listed first has the point.
+/// An analytic phantom: where parts of a layer overlap, the one listed first has the point.
 struct PhantomShape {
   std::string name;
   std::string description;
@@ -27,6 +28,9 @@ struct PhantomShape {
   double tiltDeg;              ///< of its own scan
   std::vector<PhantomPart> parts;
 };
+
+/// Those that lack something, each with a repair script of its name.
+std::vector<PhantomShape> damagedPhantoms();
 
 /// All phantoms, in the order of the help text.
 const std::vector<PhantomShape>& phantomShapes();
