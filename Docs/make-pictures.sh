@@ -13,6 +13,12 @@ trap 'rm -rf -- "$work"' EXIT
   --size "biceps tendons=1" --size "triceps tendons=1"
 "$sinew" phantom torus --output "$work/torus.seg.nrrd"
 "$sinew" mesh "$work/torus.seg.nrrd" --output "$work/torus" --edge-length 1 --curvature 0
+for phantom in drilled-femur gapped-muscle torn-vessel speckled-liver overlapping-muscles; do
+  "$sinew" phantom "$phantom" --output "$work/$phantom.seg.nrrd"
+  "$sinew" repair "$work/$phantom.seg.nrrd" "$docs/../Data/$phantom.lua" --output "$work/$phantom-repaired.seg.nrrd"
+  "$sinew" mesh "$work/$phantom.seg.nrrd" --output "$work/repair/$phantom-before" --edge-length 1.5 --curvature 0
+  "$sinew" mesh "$work/$phantom-repaired.seg.nrrd" --output "$work/repair/$phantom-after" --edge-length 1.5 --curvature 0
+done
 if [[ $frog ]]; then
   tissues=()
   for label in {1..15}; do tissues+=(--tissue "$label"); done

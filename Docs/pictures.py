@@ -34,6 +34,25 @@ FROG = {
     "stomach": (0.86, 0.69, 0.51),
 }
 
+# phantom: place in the picture, mm; planes; tissues
+REPAIRS = {
+    "drilled-femur": (0, [], {"femur": (0.95, 0.84, 0.57)}),
+    "gapped-muscle": (40, [], {"muscle": (0.75, 0.31, 0.29)}),
+    "torn-vessel": (66, [], {"vessel": (0.84, 0.12, 0.12)}),
+    "speckled-liver": (110, [((0, 0, 0), (0, 1, 0))], {"liver": (0.70, 0.40, 0.30)}),
+    "overlapping-muscles": (
+        160,
+        [((0, 0, 0), (0, 1, 0))],
+        {"vastus_medialis": (0.75, 0.31, 0.29), "rectus_femoris": (0.45, 0.25, 0.53)},
+    ),
+}
+REPAIR_PARTS = {
+    f"{phantom}-{when}/{tissue}": (colour, planes, (x, 0, 0 if when == "before" else -104))
+    for phantom, (x, planes, tissues) in REPAIRS.items()
+    for tissue, colour in tissues.items()
+    for when in ("before", "after")
+}
+
 LEFT_HALF = [((0, 0, 0), (-1, 0, 0))]
 SLICE = [((0, 0, 8), (0, 0, -1)), ((0, 0, -24), (0, 0, 1))]
 
@@ -63,6 +82,15 @@ SCENES = {
         "view": ((0.3, -1, 0.75), (0, 0, 1)),
         "hollows": 3,
         "parts": {"torus": [((0, 0, 0), (0, 1, 0))]},
+    },
+    "repair": {
+        "meshes": "repair",
+        "colours": {part: colour for part, (colour, _, _) in REPAIR_PARTS.items()},
+        "width": 900,
+        "view": ((0, -1, 0.05), (0, 0, 1)),
+        "hollows": 4,
+        "parts": {part: planes for part, (_, planes, _) in REPAIR_PARTS.items()},
+        "places": {part: place for part, (_, _, place) in REPAIR_PARTS.items()},
     },
     "frog": {
         "meshes": "frog",

@@ -152,12 +152,17 @@ def darken_hollows(renderer, radius):
 
 
 def render(scene, meshes, colours, file):
-    """Draws a scene: {width, view: (from, up), parts: {tissue: planes}}; the tissue's mesh is `meshes`/tissue.vtu."""
+    """Draws a scene: {width, view: (from, up), parts: {tissue: planes}}; the tissue's mesh is `meshes`/tissue.vtu.
+
+    With `places` {tissue: offset} parts are shown elsewhere, mm.
+    """
     renderer = vtk.vtkRenderer()
     renderer.SetBackground(1, 1, 1)
     for tissue, planes in scene["parts"].items():
         mesh = read_mesh(meshes / f"{tissue}.vtu")
-        renderer.AddActor(actor(surface_of(mesh, planes, colours[tissue]), colours[tissue]))
+        part = actor(surface_of(mesh, planes, colours[tissue]), colours[tissue])
+        part.SetPosition(*scene.get("places", {}).get(tissue, (0, 0, 0)))
+        renderer.AddActor(part)
     add_lights(renderer)
     darken_hollows(renderer, scene["hollows"])
     window = vtk.vtkRenderWindow()

@@ -56,12 +56,12 @@ bool tornVessel(const Vector3d& x) {
 bool speckledLiver(const Vector3d& x) {
   static const std::vector<Vector3d> specks{{22, 14, 8},   {-24, 10, -6}, {12, -20, 10},
                                             {-16, -18, 2}, {2, 4, 21},    {25, -6, -9}};
-  static const std::vector<Vector3d> pinholes{{6, 2, 1}, {-9, 4, -3}, {0, -6, 5}, {11, -3, -4}};
+  static const std::vector<Vector3d> pinholes{{6, 1, 1}, {-9, 1, -3}, {-1, -1, 6}, {12, 0, -4}};
   const auto near = [&](const std::vector<Vector3d>& places, double radius) {
     return std::ranges::any_of(places, [&](const Vector3d& p) { return (x - p).norm() < radius; });
   };
   const bool liver = std::hypot(x.x() / 20, x.y() / 14, x.z() / 12) < 1;
-  return (liver && !near(pinholes, 1.6)) || near(specks, 1.4);
+  return (liver && !near(pinholes, 2)) || near(specks, 2.2);
 }
 
 }  // namespace
