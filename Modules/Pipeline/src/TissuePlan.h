@@ -18,7 +18,7 @@ struct TissuePlan {
 struct TissueWish {
   double edge = 0;       ///< cube size at the surface, > 0
   bool ownEdge = false;  ///< asked for by name
-  Smoothing smoothing;
+  Smoothing smoothing = {};
 };
 
 TissuePlan planTissue(const Segmentation& segmentation, const Tissue& tissue, const TissueWish& wish,
