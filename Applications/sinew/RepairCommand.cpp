@@ -28,6 +28,7 @@ struct RepairCommand {
   std::string input, script, output, vdbFolder;
   std::vector<std::string> settings;
   Length grid = 0;
+  Smoothing smoothing;
   ReadSegmentationOptions reading;
   RepairOptions options;
 };
@@ -49,10 +50,7 @@ void addOptions(CommandLine& line, RepairCommand& command) {
   line.addLength(
       "--grid", command.grid,
       "spacing of the level sets; 0: the smallest spacing of the image, but not below half a voxel");
-  app.add_option("--smoothing", command.options.smoothingVoxels,
-                 "standard deviation of the Gauss on the labels, voxels; 0 keeps the stairs")
-      ->check(CommandLine::atLeast(0))
-      ->capture_default_str();
+  line.addSmoothing("--smoothing", command.smoothing);
   app.add_option("--lut", command.reading.lut, "colour table with the names of the labels")
       ->type_name("FILE");
 }
@@ -149,7 +147,10 @@ int repair(const CommandLine& line, RepairCommand& command) {
   const Segmentation input = readSegmentation(command.input, command.reading);
   command.options.scriptName = command.script;
   command.options.meshFolder = fs::path(command.script).parent_path();
-  command.options.gridSpacing = command.grid.millimetres(input.geometry.meanSpacing());
+  const double voxel = input.geometry.meanSpacing();
+  command.options.gridSpacing = command.grid.millimetres(voxel);
+  command.options.smoothingVoxels = command.smoothing.kind == Smoothing::Kind::None ? 0 : 1;
+  command.options.smoothingTime = command.smoothing.motion(voxel);
   command.options.levelSets = !command.vdbFolder.empty();
 
   const InterruptScope interruptible;

@@ -5,7 +5,8 @@
 namespace sinew {
 
 void redistance(DenseLevelSet& levelSet) {
-  fastMarching(levelSet.phi, Eigen::Vector3d::Constant(levelSet.voxelSize), levelSet.band);
+  fastMarching(levelSet.phi, Eigen::Vector3d::Constant(levelSet.voxelSize), levelSet.band,
+               {.closestPointLayers = 2});
 }
 
 }  // namespace sinew

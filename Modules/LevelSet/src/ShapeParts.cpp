@@ -85,11 +85,14 @@ void forAround(const Eigen::Vector3i& size, int i, int j, int k, int reach, cons
       for (int x = std::max(0, i - reach); x <= std::min(size.x() - 1, i + reach); ++x) visit(x, y, z);
 }
 
-/// What a closing adds to a shape, in pieces: negative there, positive elsewhere.
-DenseField additions(const DenseField& phi, const DenseField& closed) {
+/// What a closing adds to a shape, in pieces: negative there, positive elsewhere. Samples on the surface that
+/// rounding turns are no addition.
+DenseField additions(const DenseField& phi, const DenseField& closed, float rounding) {
   DenseField added(phi.size, 1);
-  for (std::size_t n = 0; n < phi.values.size(); ++n)
-    if (phi.values[n] >= 0 && closed.values[n] < 0) added.values[n] = -1;
+  for (std::size_t n = 0; n < phi.values.size(); ++n) {
+    const float before = phi.values[n], after = closed.values[n];
+    if (before >= 0 && after < 0 && before - after > rounding) added.values[n] = -1;
+  }
   return added;
 }
 
@@ -173,7 +176,9 @@ DenseLevelSet fillHoles(const DenseLevelSet& levelSet, double width) {
   const Eigen::Vector3i first = firstSampleOn(lattice, closed).value();
   closed = onBox(closed, -first, levelSet.phi.size - Eigen::Vector3i::Ones() - first);
 
-  const FieldPieces added = fieldPieces(additions(levelSet.phi, closed.phi), true, Connectivity::Corners);
+  const FieldPieces added =
+      fieldPieces(additions(levelSet.phi, closed.phi, kBeside * static_cast<float>(levelSet.voxelSize)), true,
+                  Connectivity::Corners);
   const std::vector<int> mouths = mouthsOf(added, closed.phi);
   DenseLevelSet result = levelSet;
   const Eigen::Vector3i& size = levelSet.phi.size;

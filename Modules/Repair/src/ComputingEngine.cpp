@@ -7,6 +7,7 @@
 #include "sinew/LevelSet/Redistance.h"
 #include "sinew/LevelSet/ResampleLevelSet.h"
 #include "sinew/LevelSet/ShapeParts.h"
+#include "sinew/LevelSet/Smooth.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,6 +57,7 @@ ComputingEngine::ComputingEngine(const Segmentation& input, const RepairOptions&
     : ShapeEngine(input),
       lattice_(commonLattice(input.geometry, options.gridSpacing)),
       smoothingVoxels_(options.smoothingVoxels),
+      smoothingTime_(options.smoothingTime),
       band_(kBandSamples * lattice_.spacing),
       limit_(options.limits.shapeBytes),
       tissues_(input.tissues.size()),
@@ -111,7 +113,10 @@ LevelSetPtr ComputingEngine::tissueLevelSet(int index) {
     options.bandVoxels = kBandSamples;
     options.gridSpacing = lattice_.spacing;
     options.onCommonLattice = true;
-    tissues_[t] = held(denseLevelSetFromLabels(input_, input_.tissues[t], options));
+    options.preserveTopology = smoothingVoxels_ > 0;
+    DenseLevelSet levelSet = denseLevelSetFromLabels(input_, input_.tissues[t], options);
+    if (smoothingTime_ > 0) smooth(levelSet, {.time = smoothingTime_});
+    tissues_[t] = held(std::move(levelSet));
   }
   return tissues_[t];
 }

@@ -51,7 +51,8 @@ class ComputingEngine : public ShapeEngine {
 
   SampleLattice lattice_;
   double smoothingVoxels_;
-  double band_;  ///< mm
+  double smoothingTime_;  ///< mm^2
+  double band_;           ///< mm
   std::int64_t limit_;
   std::shared_ptr<std::int64_t> held_ =
       std::make_shared<std::int64_t>(0);  ///< bytes; shapes may outlive this
