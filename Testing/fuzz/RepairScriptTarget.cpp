@@ -44,7 +44,7 @@ std::filesystem::path folderWithMesh() {
 RepairOptions options() {
   static const std::filesystem::path meshes = folderWithMesh();
   RepairOptions options{.meshFolder = meshes};
-  options.limits = {.instructions = 200'000, .scriptBytes = 4'000'000, .shapeBytes = 20'000'000};
+  options.limits = {.instructions = 200'000, .scriptBytes = 4'000'000, .shapeBytes = 4'000'000};
   return options;
 }
 

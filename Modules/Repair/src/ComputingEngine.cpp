@@ -135,7 +135,9 @@ LevelSetPtr ComputingEngine::sampled(const ShapePtr& shape, const AlignedBox3d& 
     return held(sampleSolid(*shape->solid, lattice_, band, seen));
   }
   const LevelSetPtr levelSet = shape->untouched ? tissueLevelSet(shape->origin) : shape->levelSet;
-  return levelSet->band < band ? held(withWiderBand(*levelSet, band)) : levelSet;
+  if (levelSet->band >= band) return levelSet;
+  makeRoomFor(grown(sampleBox(*levelSet), band - levelSet->band));
+  return held(withWiderBand(*levelSet, band));
 }
 
 LevelSetPtr ComputingEngine::levelSetOf(const ShapePtr& shape) {

@@ -314,6 +314,8 @@ TEST(RepairSegmentation, ShapesBeyondTheMemoryAreRefused) {
       "the shapes of the script take more than 1 MB; make them smaller, or --grid larger";
   EXPECT_EQ(test::errorOf("print(volume(sphere{center={0, 0, 0}, radius=500}))", options),
             "script.lua:1: " + reason);
+  EXPECT_EQ(test::errorOf("print(volume(union(tissue 'biceps', tissue 'humerus', {blend=1000})))", options),
+            "script.lua:1: " + reason);
   EXPECT_EQ(test::errorOf("local kept = {}\nfor i = 1, 1000 do\n  kept[i] = tissue 'biceps':offset(1)\nend",
                           options),
             "script.lua:3: " + reason);
