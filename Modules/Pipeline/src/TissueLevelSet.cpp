@@ -1,7 +1,10 @@
 #include "TissueLevelSet.h"
 
+#include "Digits.h"
 #include "sinew/LevelSet/LabelCrop.h"
 #include "sinew/LevelSet/Smooth.h"
+
+#include <cmath>
 
 namespace sinew {
 namespace {
@@ -23,6 +26,7 @@ TissueLevelSet makeTissueLevelSet(const Segmentation& segmentation, const Tissue
     const SmoothReport smoothed = smooth(result.levelSet, {.time = plan.motion});
     result.volumes.levelSetVolume = smoothed.volumeAfter;
     result.smoothing.levelSet = smoothed.after;
+    result.smoothing.volumeChange = smoothed.volumeAfter / smoothed.volumeBefore - 1;
   } else {
     result.smoothing.levelSet = shapeTopology(result.levelSet);
   }
@@ -38,7 +42,10 @@ std::string smoothingWarning(const SmoothingReport& report) {
     text = change("pieces", report.voxels.components, report.levelSet.components);
   if (report.levelSet.cavities != report.voxels.cavities)
     text += (text.empty() ? "" : ", ") + change("cavities", report.voxels.cavities, report.levelSet.cavities);
-  return text.empty() ? "" : "smoothing to the level set's spacing left " + text;
+  constexpr double kVolumeTolerance = 1.5e-3;  // smooth keeps it within 1e-3
+  if (std::abs(report.volumeChange) > kVolumeTolerance)
+    text += (text.empty() ? "" : ", ") + threeDigits(100 * (1 + report.volumeChange)) + " % of the volume";
+  return text.empty() ? "" : "smoothing left " + text + "; try less of it";
 }
 
 }  // namespace sinew

@@ -59,8 +59,9 @@ struct Fidelity {
 
 /// Pieces (26-connected) and cavities (6-connected) of a tissue before and after smoothing.
 struct SmoothingReport {
-  ShapeTopology voxels;    ///< as the labels have them
-  ShapeTopology levelSet;  ///< as the level set's samples have them
+  ShapeTopology voxels;     ///< as the labels have them
+  ShapeTopology levelSet;   ///< as the level set's samples have them
+  double volumeChange = 0;  ///< that motion by mean curvature left, as part of the volume
 };
 
 /// What the labels had and the mesh has not: 26-connected pieces of which no voxel has its centre in the
