@@ -17,7 +17,7 @@ std::vector<float> kernel(double sigma) {
   std::vector<double> weights(static_cast<std::size_t>(radius) + 1);
   double sum = 0;
   for (int r = 0; r <= radius; ++r) {
-    weights[r] = std::exp(-r * r / (2 * sigma * sigma));
+    weights[r] = std::exp(-(static_cast<double>(r) * r) / (2 * sigma * sigma));
     sum += (r == 0 ? 1 : 2) * weights[r];
   }
   std::vector<float> normalized;

@@ -3,6 +3,8 @@
 #include "sinew/LevelSet/FieldPieces.h"
 #include "sinew/LevelSet/FieldVolume.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -31,12 +33,35 @@ void forCrossings(const DenseField& phi, const Visit& visit) {
       }
 }
 
+/// Where two surfaces touch, CSG leaves samples near zero with nothing inside around them: they go out of
+/// reach.
+DenseField withoutFilms(const DenseLevelSet& levelSet) {
+  DenseField field = levelSet.phi;
+  const DenseField& phi = levelSet.phi;
+  const auto away = static_cast<float>(levelSet.voxelSize), near = 0.5F * away;
+  const auto anyInside = [&](int i, int j, int k) {
+    for (int z = std::max(k - 1, 0); z <= std::min(k + 1, phi.size.z() - 1); ++z)
+      for (int y = std::max(j - 1, 0); y <= std::min(j + 1, phi.size.y() - 1); ++y)
+        for (int x = std::max(i - 1, 0); x <= std::min(i + 1, phi.size.x() - 1); ++x)
+          if (phi(x, y, z) < 0) return true;
+    return false;
+  };
+  tbb::parallel_for(0, phi.size.z(), [&](int k) {
+    for (int j = 0; j < phi.size.y(); ++j) {
+      const float* row = phi.row(j, k);
+      for (int i = 0; i < phi.size.x(); ++i)
+        if (row[i] >= 0 && row[i] < near && !anyInside(i, j, k)) field(i, j, k) = away;
+    }
+  });
+  return field;
+}
+
 std::int64_t enclosed(const FieldPieces& pieces) { return std::ranges::count(pieces.atBorder, 0); }
 
 }  // namespace
 
 double shapeVolume(const DenseLevelSet& levelSet) {
-  return fieldVolume(levelSet.phi, Eigen::Vector3d::Constant(levelSet.voxelSize));
+  return fieldVolume(withoutFilms(levelSet), Eigen::Vector3d::Constant(levelSet.voxelSize));
 }
 
 Eigen::AlignedBox3d shapeBounds(const DenseLevelSet& levelSet) {

@@ -33,6 +33,12 @@ TEST(ShapeMeasures, AnEmptyShapeHasNone) {
   EXPECT_EQ(shapeTopology(nothing), (ShapeTopology{0, 0}));
 }
 
+TEST(ShapeMeasures, SurfacesThatTouchHaveNoVolumeBetweenThem) {
+  DenseLevelSet shape = levelSetOf(ball({0.2, 0, 0}, 9));
+  for (float& value : shape.phi.values) value = std::abs(value);  // the ball without itself: max(a, -a)
+  EXPECT_LT(shapeVolume(shape), 0.005 * 4 * std::numbers::pi / 3 * 729) << "oblique cells half a sample away";
+}
+
 TEST(ShapeMeasures, PiecesAndCavities) {
   const auto shell = [](const Vector3d& x) { return std::abs((x - Vector3d(5, 0, 0)).norm() - 6) - 1.5; };
   const auto two = [&](const Vector3d& x) { return std::min(shell(x), ball({-10, 0, 0}, 4)(x)); };

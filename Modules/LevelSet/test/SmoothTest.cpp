@@ -59,6 +59,18 @@ TEST(Smooth, ThinPartsSurviveWithTheirTopology) {
   EXPECT_NEAR(report.volumeAfter / report.volumeBefore, 1, 1e-3);
 }
 
+TEST(Smooth, StrongSmoothingKeepsTheVolumeOfWhatStays) {
+  for (const double radius : {4.0, 7.0})
+    for (const SmoothOptions& options : {SmoothOptions{.time = 15, .preserve = Preserve::Volume},
+                                         SmoothOptions{.time = 30, .preserve = Preserve::Both},
+                                         SmoothOptions{.sigma = 2, .preserve = Preserve::Both}}) {
+      DenseLevelSet shape = levelSetOf(ball({0.2, 0, 0}, radius), 12);
+      const SmoothReport report = smooth(shape, options);
+      EXPECT_NEAR(report.volumeAfter / report.volumeBefore, 1, 1e-3) << radius << ", " << options.time;
+      EXPECT_EQ(report.after, (ShapeTopology{1, 0}));
+    }
+}
+
 TEST(Smooth, AHollowStaysAHollow) {
   DenseLevelSet shape = levelSetOf([](const Vector3d& x) {
     return std::max(ball({0, 0, 0}, 14)(x), -ball({4, 0, 0}, 2)(x));
@@ -79,6 +91,7 @@ TEST(Smooth, RefusesNegativeOptions) {
   DenseLevelSet shape = levelSetOf(ball({0, 0, 0}, 5), 10);
   EXPECT_THROW(smooth(shape, {.time = -1}), std::invalid_argument);
   EXPECT_THROW(smooth(shape, {.sigma = -1}), std::invalid_argument);
+  EXPECT_THROW(smooth(shape, {.sigma = 101}), std::invalid_argument);
 }
 
 TEST(Smooth, SameBitsForAnyNumberOfThreads) {

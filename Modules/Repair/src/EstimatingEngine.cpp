@@ -40,7 +40,7 @@ class EstimatingEngine : public ShapeEngine {
       shape.volume += b->volume;
     } else if (operation == Csg::Intersection) {
       shape.box = a->box.intersection(b->box);
-      shape.volume = std::min({a->volume, b->volume, shape.box.volume()});
+      shape.volume = shape.box.isEmpty() ? 0 : std::min({a->volume, b->volume, shape.box.volume()});
     }
     return made(std::move(shape));
   }

@@ -19,6 +19,7 @@ using Machine = Sandbox::Machine;
 constexpr const char* kShape = "shape";
 constexpr int kDeepestTable = 8;
 constexpr int kMostValues = 2'000'000;
+constexpr std::size_t kMostTextBytes = std::size_t{16} << 20;
 
 /// Reads values off the stack. Raises no Lua error; throws ScriptError.
 class StackReader {
@@ -51,6 +52,9 @@ class StackReader {
   std::string text(int index) {
     std::size_t size = 0;
     const char* bytes = lua_tolstring(state_, index, &size);
+    textBytes_ += size;
+    if (textBytes_ > kMostTextBytes)
+      throw ScriptError("more than " + std::to_string(kMostTextBytes >> 20) + " MB of texts in one call");
     return {bytes, size};
   }
 
@@ -83,6 +87,7 @@ class StackReader {
 
   lua_State* state_;
   int read_ = 0;
+  std::size_t textBytes_ = 0;
 };
 
 // The half in C++.

@@ -3,7 +3,9 @@
 #include "sinew/LevelSet/ShapeParts.h"
 #include "sinew/LevelSet/Smooth.h"
 
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <numbers>
 
@@ -86,6 +88,21 @@ Preserve preserveOf(Call& call, const Fields& fields) {
   return found->second;
 }
 
+/// What a smoothing was to keep and has not; empty for nothing.
+std::string lossOf(const SmoothReport& report, Preserve preserve) {
+  constexpr double kVolumeTolerance = 1.5e-3;  // smooth aims at 1e-3
+  const double change = report.volumeAfter / report.volumeBefore - 1;
+  std::string loss;
+  if ((preserve == Preserve::Volume || preserve == Preserve::Both) && std::abs(change) > kVolumeTolerance) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%+.1f", 100 * change);
+    loss = "the volume (" + std::string(text.data()) + " %)";
+  }
+  if ((preserve == Preserve::Topology || preserve == Preserve::Both) && !(report.before == report.after))
+    loss += (loss.empty() ? "" : " and ") + std::string("the number of pieces or cavities");
+  return loss;
+}
+
 Values smoothOf(Call& call) {
   const Fields fields = call.fields(1, {"time", "sigma", "preserve"});
   if (!fields.has("time") && !fields.has("sigma"))
@@ -94,9 +111,10 @@ Values smoothOf(Call& call) {
   if (fields.has("time")) options.time = call.reader().number("time, in mm^2,", fields["time"], kNotNegative);
   options.sigma = fields.length("sigma", kNotNegative, 0);
   options.preserve = preserveOf(call, fields);
-  const auto apply = [options](const DenseLevelSet& shape) {
+  const auto apply = [options, &session = call.session, line = call.line](const DenseLevelSet& shape) {
     DenseLevelSet result = shape;
-    smooth(result, options);
+    const std::string loss = lossOf(smooth(result, options), options.preserve);
+    if (!loss.empty()) session.tell("line " + std::to_string(line) + ": smooth could not keep " + loss);
     return result;
   };
   return changed(call, {.needsDistance = true, .apply = apply});

@@ -6,7 +6,8 @@
 
 namespace sinew {
 
-/// Volume of phi < 0, mm^3 (see fieldVolume).
+/// Volume of phi < 0, mm^3 (see fieldVolume). Where two surfaces only touch, as after CSG of neighbours, next to
+/// nothing is counted.
 double shapeVolume(const DenseLevelSet& levelSet);
 
 /// LPS box of phi <= 0, with the zero crossings interpolated along the axes; empty for an empty shape.

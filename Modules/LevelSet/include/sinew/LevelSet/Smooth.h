@@ -22,11 +22,12 @@ struct SmoothReport {
   double offset = 0;             ///< by which the surface was moved outward to keep the volume, mm
 };
 
-/// Smooths a shape. Volume: within 0.1 %, by an even offset. Topology: a sample changes side only while it is
+/// Smooths a shape. Volume: within 0.1 %, by even offsets on the way, unless the shape is worn down to what the
+/// topology holds; volumeAfter says what came of it. Topology: a sample changes side only while it is
 /// a simple point (26-connected inside, 6-connected outside), so that no piece, tunnel or cavity comes or
 /// goes.
 /// @param levelSet  a signed distance in its band; a signed distance afterwards
-/// @throws std::invalid_argument on negative options.
+/// @throws std::invalid_argument on negative options, and on a sigma above 100 samples.
 SmoothReport smooth(DenseLevelSet& levelSet, const SmoothOptions& options);
 
 }  // namespace sinew
