@@ -1,10 +1,22 @@
 #pragma once
 
-#include "sinew/LevelSet/DenseField.h"
+#include "sinew/LevelSet/DenseLevelSet.h"
+
+#include <benchmark/benchmark.h>
 
 #include <algorithm>
 
 namespace sinew::bench {
+
+/// Runs at three sizes, timed by wall and by the CPU time of all threads.
+inline void threeSizes(benchmark::internal::Benchmark* benchmark) {
+  benchmark->Arg(64)
+      ->Arg(128)
+      ->Arg(256)
+      ->Unit(benchmark::kMillisecond)
+      ->UseRealTime()
+      ->MeasureProcessCPUTime();
+}
 
 /// A ball that fills a raster of n^3 samples up to eight from the border: its distance, voxels, clamped to
 /// `limit`.

@@ -12,13 +12,7 @@ void smoothBall(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(mask.values.size()));
 }
 
-BENCHMARK(smoothBall)
-    ->Arg(64)
-    ->Arg(128)
-    ->Arg(256)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->MeasureProcessCPUTime();
+BENCHMARK(smoothBall)->Apply(bench::threeSizes);
 
 }  // namespace
 }  // namespace sinew

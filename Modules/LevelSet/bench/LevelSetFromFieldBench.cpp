@@ -13,13 +13,7 @@ void copyBall(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(ball.values.size()));
 }
 
-BENCHMARK(copyBall)
-    ->Arg(64)
-    ->Arg(128)
-    ->Arg(256)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->MeasureProcessCPUTime();
+BENCHMARK(copyBall)->Apply(bench::threeSizes);
 
 }  // namespace
 }  // namespace sinew

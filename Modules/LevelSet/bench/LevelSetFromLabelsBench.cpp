@@ -20,21 +20,9 @@ void convertBall(benchmark::State& state, bool thick) {
   for (auto _ : state) benchmark::DoNotOptimize(levelSetFromLabels(segmentation, segmentation.tissues[0]));
   state.SetItemsProcessed(state.iterations() * std::int64_t{n} * n * n);
 }
-BENCHMARK_CAPTURE(convertBall, cubic, false)
-    ->Arg(64)
-    ->Arg(128)
-    ->Arg(256)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->MeasureProcessCPUTime();
+BENCHMARK_CAPTURE(convertBall, cubic, false)->Apply(bench::threeSizes);
 
-BENCHMARK_CAPTURE(convertBall, thick, true)
-    ->Arg(64)
-    ->Arg(128)
-    ->Arg(256)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->MeasureProcessCPUTime();
+BENCHMARK_CAPTURE(convertBall, thick, true)->Apply(bench::threeSizes);
 
 }  // namespace
 }  // namespace sinew

@@ -16,13 +16,7 @@ void volumeOfBall(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(levelSetVolume(levelSet));
   state.SetItemsProcessed(state.iterations() * state.range(0) * state.range(0) * state.range(0));
 }
-BENCHMARK(volumeOfBall)
-    ->Arg(64)
-    ->Arg(128)
-    ->Arg(256)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->MeasureProcessCPUTime();
+BENCHMARK(volumeOfBall)->Apply(bench::threeSizes);
 
 void topologyOfBall(benchmark::State& state) {
   const LevelSet levelSet = ball(static_cast<int>(state.range(0)));
@@ -30,13 +24,7 @@ void topologyOfBall(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * state.range(0) * state.range(0) * state.range(0));
 }
 
-BENCHMARK(topologyOfBall)
-    ->Arg(64)
-    ->Arg(128)
-    ->Arg(256)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->MeasureProcessCPUTime();
+BENCHMARK(topologyOfBall)->Apply(bench::threeSizes);
 
 }  // namespace
 }  // namespace sinew

@@ -18,13 +18,7 @@ void shrinkBall(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(ball.values.size()));
 }
 
-BENCHMARK(shrinkBall)
-    ->Arg(64)
-    ->Arg(128)
-    ->Arg(256)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->MeasureProcessCPUTime();
+BENCHMARK(shrinkBall)->Apply(bench::threeSizes);
 
 }  // namespace
 }  // namespace sinew

@@ -13,13 +13,7 @@ void curvaturesOfBall(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(ball.values.size()));
 }
 
-BENCHMARK(curvaturesOfBall)
-    ->Arg(64)
-    ->Arg(128)
-    ->Arg(256)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->MeasureProcessCPUTime();
+BENCHMARK(curvaturesOfBall)->Apply(bench::threeSizes);
 
 }  // namespace
 }  // namespace sinew

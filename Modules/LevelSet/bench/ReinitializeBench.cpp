@@ -19,13 +19,7 @@ void reinitializeBall(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(ball.values.size()));
 }
 
-BENCHMARK(reinitializeBall)
-    ->Arg(64)
-    ->Arg(128)
-    ->Arg(256)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->MeasureProcessCPUTime();
+BENCHMARK(reinitializeBall)->Apply(bench::threeSizes);
 
 }  // namespace
 }  // namespace sinew

@@ -17,13 +17,7 @@ void distancesOfBallSlices(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(ball.values.size()));
 }
 
-BENCHMARK(distancesOfBallSlices)
-    ->Arg(64)
-    ->Arg(128)
-    ->Arg(256)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->MeasureProcessCPUTime();
+BENCHMARK(distancesOfBallSlices)->Apply(bench::threeSizes);
 
 }  // namespace
 }  // namespace sinew

@@ -16,13 +16,7 @@ void interpolateBallSlices(benchmark::State& state) {
                           slices.size.y());
 }
 
-BENCHMARK(interpolateBallSlices)
-    ->Arg(64)
-    ->Arg(128)
-    ->Arg(256)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->MeasureProcessCPUTime();
+BENCHMARK(interpolateBallSlices)->Apply(bench::threeSizes);
 
 }  // namespace
 }  // namespace sinew

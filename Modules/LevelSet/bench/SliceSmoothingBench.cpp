@@ -17,13 +17,7 @@ void smoothBallSlices(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(slices.values.size()));
 }
 
-BENCHMARK(smoothBallSlices)
-    ->Arg(64)
-    ->Arg(128)
-    ->Arg(256)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->MeasureProcessCPUTime();
+BENCHMARK(smoothBallSlices)->Apply(bench::threeSizes);
 
 }  // namespace
 }  // namespace sinew

@@ -1,3 +1,4 @@
+#include "BenchFields.h"
 #include "sinew/LevelSet/Solid.h"
 
 #include <benchmark/benchmark.h>
@@ -28,27 +29,9 @@ Solid helixOf(double n) {
   return tube(points, {n / 16});
 }
 
-BENCHMARK_CAPTURE(sample, capsule, capsuleOf)
-    ->Arg(64)
-    ->Arg(128)
-    ->Arg(256)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->MeasureProcessCPUTime();
-BENCHMARK_CAPTURE(sample, ellipsoid, eggOf)
-    ->Arg(64)
-    ->Arg(128)
-    ->Arg(256)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->MeasureProcessCPUTime();
-BENCHMARK_CAPTURE(sample, tubeOf50Points, helixOf)
-    ->Arg(64)
-    ->Arg(128)
-    ->Arg(256)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->MeasureProcessCPUTime();
+BENCHMARK_CAPTURE(sample, capsule, capsuleOf)->Apply(bench::threeSizes);
+BENCHMARK_CAPTURE(sample, ellipsoid, eggOf)->Apply(bench::threeSizes);
+BENCHMARK_CAPTURE(sample, tubeOf50Points, helixOf)->Apply(bench::threeSizes);
 
 }  // namespace
 }  // namespace sinew

@@ -19,13 +19,7 @@ void levelBall(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(mask.values.size()));
 }
 
-BENCHMARK(levelBall)
-    ->Arg(64)
-    ->Arg(128)
-    ->Arg(256)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->MeasureProcessCPUTime();
+BENCHMARK(levelBall)->Apply(bench::threeSizes);
 
 }  // namespace
 }  // namespace sinew

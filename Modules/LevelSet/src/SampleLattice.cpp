@@ -10,6 +10,7 @@ namespace sinew {
 namespace {
 
 constexpr double kSameSample = 1e-3;  // of the spacing
+constexpr double kFarthest = 1e9;     // samples; beyond, an index is no int
 
 }  // namespace
 
@@ -21,6 +22,7 @@ std::optional<Eigen::Vector3i> firstSampleOn(const SampleLattice& lattice, const
     return lattice.frame.inverse() * (levelSet.frame * (levelSet.voxelSize * sample)) / h;
   };
   const Eigen::Vector3d first = indexOf(Eigen::Vector3d::Zero());
+  if (!(first.cwiseAbs().maxCoeff() < kFarthest)) return std::nullopt;
   const Eigen::Vector3i index = first.array().round().cast<int>();
   const bool same = (first - index.cast<double>()).cwiseAbs().maxCoeff() < kSameSample &&
                     (indexOf(last) - first - last).cwiseAbs().maxCoeff() < kSameSample;

@@ -180,6 +180,7 @@ DenseLevelSet fillHoles(const DenseLevelSet& levelSet, double width) {
       fieldPieces(additions(levelSet.phi, closed.phi, kBeside * static_cast<float>(levelSet.voxelSize)), true,
                   Connectivity::Corners);
   const std::vector<int> mouths = mouthsOf(added, closed.phi);
+  if (std::ranges::count(mouths, 1) == std::ssize(mouths)) return levelSet;
   DenseLevelSet result = levelSet;
   const Eigen::Vector3i& size = levelSet.phi.size;
   constexpr int kRim = 2;  // samples beside a plug that see its surface too

@@ -4,6 +4,7 @@
 #include "sinew/LevelSet/LevelSetGrid.h"
 
 #include <openvdb/io/File.h>
+#include <openvdb/io/Stream.h>
 
 #include <cmath>
 #include <fstream>
@@ -25,21 +26,22 @@ std::string lineOf(const std::exception& error) {
   return text.substr(0, text.find('\n'));
 }
 
-/// The first level set of a file, or null.
-FloatGrid::Ptr firstLevelSet(openvdb::io::File& in) {
-  const openvdb::GridPtrVecPtr all = in.readAllGridMetadata();
-  for (const openvdb::GridBase::Ptr& header : *all)
-    if (header->isType<FloatGrid>() && header->getGridClass() == openvdb::GRID_LEVEL_SET)
-      return openvdb::gridPtrCast<FloatGrid>(in.readGrid(header->getName()));
+/// The first level set of the grids, or null.
+FloatGrid::Ptr firstLevelSet(const openvdb::GridPtrVec& grids) {
+  for (const openvdb::GridBase::Ptr& grid : grids)
+    if (grid->isType<FloatGrid>() && grid->getGridClass() == openvdb::GRID_LEVEL_SET)
+      return openvdb::gridPtrCast<FloatGrid>(grid);
   return nullptr;
 }
 
-/// OpenVDB's errors, and those of the standard library on sizes that a damaged file claims, as ours.
+/// OpenVDB's errors, and those of the standard library on sizes that a damaged file claims, as ours. OpenVDB
+/// does not look whether a read succeeded and goes on with sizes it never read, so the stream has to throw at
+/// the file's end.
 FloatGrid::Ptr readGrid(const fs::path& file) try {
   constexpr bool kDelayed = false;  // a file that changes later must not change the grid
-  openvdb::io::File in(file.string());
-  in.open(kDelayed);
-  return firstLevelSet(in);
+  std::ifstream in(file, std::ios::binary);
+  in.exceptions(std::ios::badbit | std::ios::failbit | std::ios::eofbit);
+  return firstLevelSet(*openvdb::io::Stream(in, kDelayed).getGrids());
 } catch (const std::exception& error) {
   fail(file, "damaged or no OpenVDB file (" + lineOf(error) + ")");
 }

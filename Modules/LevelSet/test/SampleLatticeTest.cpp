@@ -73,6 +73,9 @@ TEST(SampleLattice, OtherSamplesAreNotOnIt) {
   EXPECT_FALSE(firstSampleOn(lattice, levelSet)) << "shifted";
   levelSet.frame.translation().x() += 0.4;
   EXPECT_EQ(firstSampleOn(lattice, levelSet), Vector3i(-2, 2, 10));
+  levelSet.frame.translation().x() += 1e12;
+  EXPECT_FALSE(firstSampleOn(lattice, levelSet)) << "farther away than whole numbers count";
+  levelSet.frame.translation().x() -= 1e12;
   levelSet.voxelSize = 0.51;
   EXPECT_FALSE(firstSampleOn(lattice, levelSet)) << "another spacing";
 }

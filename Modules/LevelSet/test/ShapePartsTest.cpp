@@ -83,6 +83,7 @@ TEST(ShapeParts, FillHolesShutsATunnelAndLeavesWhatIsWiderOrBlind) {
   EXPECT_GT(at(filled, 8, 4, 0), 3) << "the wide one is open";
   EXPECT_GT(at(filled, 9, -10, 3), 1) << "the blind one too";
   EXPECT_EQ(at(filled, 0, 10, 8), at(bored, 0, 10, 8)) << "no fillet in the corner";
+  EXPECT_EQ(fillHoles(bored, 1).phi.values, bored.phi.values) << "narrower than all of them";
   EXPECT_THROW(fillHoles(bored, 0), std::invalid_argument);
 }
 

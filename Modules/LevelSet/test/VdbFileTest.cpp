@@ -117,8 +117,8 @@ TEST(VdbFile, DamagedFilesEndInOneLine) {
   };
   refused("");
   refused("some words that are no grid\n");
-  for (const std::size_t size : {whole.size() / 100, whole.size() / 10, whole.size() / 2, whole.size() - 200})
-    refused(whole.substr(0, size));
+  for (std::size_t part = 0; part < 64; ++part) refused(whole.substr(0, part * whole.size() / 64));
+  refused(whole.substr(0, whole.size() - 1));
   EXPECT_EQ(test::messageOf<std::runtime_error>([&] { readVdb(folder / "none.vdb"); }),
             (folder / "none.vdb").string() + ": no such file");
   EXPECT_THROW(readVdb(folder.path()), std::runtime_error);

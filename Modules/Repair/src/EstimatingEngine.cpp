@@ -20,9 +20,13 @@ std::vector<VoxelBox> boxesOf(const LabelComponents& pieces) {
   return result;
 }
 
+bool isFinite(const Eigen::AlignedBox3d& box) { return box.min().allFinite() && box.max().allFinite(); }
+
 class EstimatingEngine : public ShapeEngine {
  public:
-  using ShapeEngine::ShapeEngine;
+  explicit EstimatingEngine(const Segmentation& input)
+      : ShapeEngine(input),
+        image_(physicalBox(input.geometry, {Eigen::Vector3i::Zero(), input.geometry.size})) {}
 
   ShapePtr mesh(const TriangleMesh& mesh) override {
     Shape shape;
@@ -42,6 +46,7 @@ class EstimatingEngine : public ShapeEngine {
       shape.box = a->box.intersection(b->box);
       shape.volume = shape.box.isEmpty() ? 0 : std::min({a->volume, b->volume, shape.box.volume()});
     }
+    clipToImage(shape, a, b);
     return made(std::move(shape));
   }
 
@@ -85,6 +90,18 @@ class EstimatingEngine : public ShapeEngine {
   Eigen::Vector3d centroid(const ShapePtr& shape) override { return shape->box.center(); }
 
  private:
+  /// What has no end is computed as far as the image and the other operand go.
+  void clipToImage(Shape& shape, const ShapePtr& a, const ShapePtr& b) const {
+    if (isFinite(shape.box)) return;
+    Eigen::AlignedBox3d seen = image_;
+    for (const ShapePtr& operand : {a, b})
+      if (isFinite(operand->box)) seen.extend(operand->box);
+    shape.box = shape.box.intersection(seen);
+    shape.volume = std::min(shape.volume, shape.box.volume());
+  }
+
+  Eigen::AlignedBox3d image_;  ///< LPS mm
+
   static ShapePtr made(Shape shape) { return std::make_shared<const Shape>(std::move(shape)); }
 };
 

@@ -64,6 +64,19 @@ RepairResult checked(const Segmentation& input, const std::string& script, const
   return resultOf(session);
 }
 
+/// What `make` makes of a saved shape; what goes wrong is told with the line that saved it.
+template <class Make>
+auto ofSaving(const Session& session, const Saving& saving, const Make& make) try {
+  return make();
+} catch (const ScriptStopped&) {
+  throw;
+} catch (const std::bad_alloc&) {
+  throw;
+} catch (const std::exception& error) {
+  throw std::invalid_argument(session.options().scriptName + ":" + std::to_string(saving.line) + ": save " +
+                              quoted(saving.name, '"') + ": " + error.what());
+}
+
 /// An input with overlaps keeps them, unless the script says which tissue wins.
 LabelWishes labelWishes(const Session& session, ComputingEngine& engine) {
   const Wishes& wishes = session.wishes;
@@ -72,8 +85,9 @@ LabelWishes labelWishes(const Session& session, ComputingEngine& engine) {
   labels.priority = wishes.priority;
   labels.layers = wishes.layers || (session.input().layers.size() > 1 && wishes.priority.empty());
   for (const Saving& saving : wishes.savings)
-    labels.claims.push_back(
-        {saving.name, saving.tissue, saving.color, savedVoxels(session.input(), saving, engine)});
+    labels.claims.push_back({saving.name, saving.tissue, saving.color, ofSaving(session, saving, [&] {
+                               return savedVoxels(session.input(), saving, engine);
+                             })});
   return labels;
 }
 
@@ -104,8 +118,10 @@ RepairResult computed(const Segmentation& input, const std::string& script, cons
   RepairResult result = resultOf(session);
   addLabels(result, assembleLabels(input, labelWishes(session, engine)));
   if (options.levelSets)
-    for (std::size_t n = 0; n < result.saved.size(); ++n)
-      result.saved[n].levelSet = engine.distanceOf(session.wishes.savings[n].shape);
+    for (std::size_t n = 0; n < result.saved.size(); ++n) {
+      const Saving& saving = session.wishes.savings[n];
+      result.saved[n].levelSet = ofSaving(session, saving, [&] { return engine.distanceOf(saving.shape); });
+    }
   return result;
 }
 

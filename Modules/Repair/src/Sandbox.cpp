@@ -10,8 +10,10 @@ namespace sinew::repair {
 namespace {
 
 constexpr int kInstructionsPerBeat = 1'000;
-/// Bytes allocated that count as one instruction.
+/// Bytes allocated, or of a text that an instruction may go through, that count as one instruction.
 constexpr std::int64_t kBytesPerInstruction = 64;
+/// Shorter texts cost nothing.
+constexpr std::int64_t kLongText = 4096;
 
 /// Lua's allocator: fails beyond the limit, upon which Lua collects garbage and tries once more.
 void* allocate(void* user, void* block, std::size_t oldSize, std::size_t newSize) {
@@ -31,12 +33,15 @@ void* allocate(void* user, void* block, std::size_t oldSize, std::size_t newSize
   if (moved == nullptr) return nullptr;
   machine.bytes += growth;
   machine.allocated += std::max<std::int64_t>(growth, 0);
+  if (block == nullptr && oldSize == LUA_TSTRING)  // so Lua tells what it makes
+    machine.longestText = std::max(machine.longestText, growth);
   return moved;
 }
 
 void beat(lua_State* state, lua_Debug*) {
   Sandbox::Machine& machine = Sandbox::Machine::of(state);
-  charge(state, kInstructionsPerBeat);
+  const std::int64_t text = machine.longestText > kLongText ? machine.longestText / kBytesPerInstruction : 0;
+  charge(state, kInstructionsPerBeat * (1 + text));
   try {
     machine.host.heartbeat(currentLine(state));
   } catch (const ScriptStopped& stop) {

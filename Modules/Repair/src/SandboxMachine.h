@@ -21,9 +21,10 @@ struct Sandbox::Machine {
 
   std::int64_t bytes = 0;  ///< that Lua holds
   std::int64_t allocated =
-      0;                  ///< in all: what copies of long texts cost, the count of instructions does not show
-  std::int64_t work = 0;  ///< instructions, and what C functions add for their loops
-  int line = 0;           ///< where the last error was raised
+      0;  ///< in all: what copies of long texts cost, the count of instructions does not show
+  std::int64_t longestText = 0;  ///< bytes; what one instruction may touch
+  std::int64_t work = 0;         ///< instructions, and what C functions add for their loops
+  int line = 0;                  ///< where the last error was raised
 
   // What a C++ function leaves for the C function above it, whose frame may be left by a longjmp.
   Values results;

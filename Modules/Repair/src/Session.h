@@ -21,6 +21,7 @@ struct Saving {
   int tissue = -1;  ///< index in the input; -1: a new one
   std::optional<std::array<double, 3>> color;
   ShapePtr shape;
+  int line = 0;  ///< of the script
 };
 
 /// What a script asks of the result.
@@ -69,7 +70,7 @@ class Session : public ScriptHost {
   const RepairOptions& options_;
   std::unique_ptr<ShapeEngine> engine_;
   std::set<std::string> settingsRead_;
-  double lines_ = 1;                 ///< of the script
+  double lines_ = 1;  ///< of the script
   double done_ = 0;
   bool ras_ = false;
 };

@@ -121,6 +121,7 @@ Values saveOf(Call& call) {
   saving.tissue = replacedTissue(call, name);
   saving.name = saving.tissue < 0 ? name : call.session.input().tissues[saving.tissue].name;
   saving.shape = call.reader().shape("the second argument", call[1]);
+  saving.line = call.line;
   if (call.has(2)) {
     const Fields fields = call.fields(2, {"color"});
     if (fields.has("color")) saving.color = colorOf(call, fields["color"]);

@@ -276,6 +276,22 @@ TEST(RepairSegmentation, OperationsAreReported) {
   EXPECT_EQ(operation.after->topology, (ShapeTopology{1, 1}));
 }
 
+TEST(RepairSegmentation, WhatGoesWrongAtSavingIsToldWithTheLineThatSaved) {
+  RepairOptions options;
+  options.limits.shapeBytes = 10'000'000;
+  EXPECT_EQ(test::errorOf("local s = sphere{center={0, 0, 0}, radius=500}\n\nsave('a', s)", options),
+            "script.lua:3: save \"a\": the shapes of the script take more than 10 MB; make them smaller, or "
+            "--grid larger");
+}
+
+TEST(RepairSegmentation, CheckingTurnsWhatHasNoEndAsFarAsTheImageGoes) {
+  const std::string script =
+      "local t = tissue 'biceps' + halfspace{point={0, 0, 0}, normal={0, 0, 1}}\n"
+      "save('biceps', t:rotate{axis={0, 0, 1}, degrees=10})";
+  EXPECT_EQ(repaired(script, {.check = true}).saved.size(), 1u);
+  EXPECT_EQ(repaired(script).saved.size(), 1u);
+}
+
 TEST(RepairSegmentation, CheckingComputesNothing) {
   RepairOptions options{.check = true};
   options.limits.shapeBytes = 0;  // not one level set

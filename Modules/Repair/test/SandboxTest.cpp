@@ -28,6 +28,20 @@ TEST(Sandbox, LoopsInsideOfLibraryFunctionsCount) {
             "script.lua:2: " + end);
 }
 
+TEST(Sandbox, GoingThroughLongTextsCounts) {
+  const std::string end = "the script was stopped after 2 million instructions; is there an endless loop?";
+  EXPECT_EQ(
+      errorOf("local a = string.rep('x', 1000000)\nlocal b = a .. 'y'\nwhile true do local c = a < b end",
+              kSmall),
+      "script.lua:3: " + end);
+}
+
+TEST(Sandbox, OneCallTakesSoMuchText) {
+  EXPECT_EQ(
+      errorOf("local s = string.rep('x', 1000000)\nlocal t = {}\nfor i = 1, 100 do t[i] = s end\nprint(t)"),
+      "script.lua:4: more than 16 MB of texts in one call");
+}
+
 TEST(Sandbox, ATableWithAFarBorderDoesNotLoopForever) {
   // Powers of two lead the search for the end of the list, #t, to 2^62.
   EXPECT_EQ(errorOf("local t = {[3]=1, [9]=1}\nlocal i = 1\nwhile i > 0 do t[i] = 1; i = i * 2 end\n"

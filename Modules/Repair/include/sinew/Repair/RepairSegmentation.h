@@ -33,8 +33,8 @@ struct RepairOptions {
   std::map<std::string, std::string> settings =
       {};                      ///< globals of the script: numbers, `true`, `false`, texts
   double gridSpacing = 0;      ///< of the level sets, mm; 0: defaultGridSpacing
-  double smoothingTime = 0;    ///< of a motion by mean curvature after that, mm^2, see smooth
   double smoothingVoxels = 1;  ///< of labels to level sets, see LevelSetFromLabelsOptions
+  double smoothingTime = 0;    ///< of a motion by mean curvature after that, mm^2, see smooth
   /// Only try the script: names, arguments and tissues are resolved, no level set is computed. Measures are
   /// then estimates from voxels and boxes; `components` counts the pieces of a tissue's voxels, and takes any
   /// other shape for one piece.
