@@ -1,13 +1,28 @@
 #!/usr/bin/env bash
-# Installs what Sinew is built from, as Debian 12 packages. Asks for nothing, and does nothing when all is there.
+# Installs what Sinew is built from, as Debian 12 packages; with --testing also the programs that its tests show files
+# to. Asks for nothing, and does nothing when all is there.
 set -euo pipefail
 
 packages=(
   g++ cmake ninja-build
   libinsighttoolkit5-dev libvtk9-dev libopenvdb-dev libboost-dev libeigen3-dev libtbb-dev zlib1g-dev libisal-dev
   libcli11-dev nlohmann-json3-dev libqhull-dev liblua5.4-dev
+  libdcmtk-dev  # DICOM segmentations
   libgtest-dev libbenchmark-dev
 )
+# Others' readers of what Sinew writes, run by Testing/exchange.
+testing=(
+  python3-meshio   # the common converter of mesh files
+  python3-vtk9     # the library below 3D Slicer and ParaView
+  python3-nibabel  # NIfTI
+  gmsh             # .msh
+  calculix-ccx     # .inp: it solves
+)
+case "${1-}" in
+  "") ;;
+  --testing) packages+=("${testing[@]}") ;;
+  *) echo "usage: install-dependencies.sh [--testing]" >&2; exit 2 ;;
+esac
 
 if ! command -v apt-get >/dev/null; then
   echo "install-dependencies: there is no apt-get here. Install what these Debian 12 packages hold: ${packages[*]}" >&2

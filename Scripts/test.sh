@@ -15,7 +15,7 @@ run_tests() {
 }
 
 say "Packages"
-Scripts/install-dependencies.sh
+Scripts/install-dependencies.sh --testing
 
 say "Release: build"
 cmake --preset release -D SINEW_BUILD_TESTING=ON

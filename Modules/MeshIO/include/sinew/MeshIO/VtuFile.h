@@ -1,22 +1,10 @@
 #pragma once
 
-#include "sinew/Mesher/TetMesh.h"
+#include "sinew/MeshIO/TissueMesh.h"
 
 #include <filesystem>
-#include <string>
-#include <vector>
 
 namespace sinew {
-
-/// A named value for every tet, or for every node.
-struct MeshArray {
-  std::string name;
-  std::vector<float> values;
-};
-struct MeshArrays {
-  std::vector<MeshArray> cells;   ///< one value per tet; the name `labels` is taken
-  std::vector<MeshArray> points;  ///< one value per node
-};
 
 /// Writes a mesh as VTK XML unstructured grid: points (double, LPS mm), tets, cell array `labels` (Int32,
 /// active scalars), further arrays (Float32) after it, zlib-compressed, readable by ParaView, 3D Slicer and

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "sinew/Mesher/TetMesh.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace sinew {
+
+/// A named value for every tet, or for every node.
+struct MeshArray {
+  std::string name;
+  std::vector<float> values;
+};
+struct MeshArrays {
+  std::vector<MeshArray> cells;   ///< one value per tet; the names `labels`, `material` and `RGB` are taken
+  std::vector<MeshArray> points;  ///< one value per node
+};
+
+/// What the tets of one label are.
+struct TissueRegion {
+  std::int32_t label = 0;
+  std::string name;                            ///< as the segmentation has it, any characters
+  std::array<double, 3> color{0.5, 0.5, 0.5};  ///< RGB in 0..1
+};
+
+/// A mesh of one tissue or of several, as files hold it.
+struct TissueMesh {
+  TetMesh mesh;                       ///< LPS mm
+  std::vector<TissueRegion> regions;  ///< one per label of the mesh
+  MeshArrays arrays;
+};
+
+}  // namespace sinew

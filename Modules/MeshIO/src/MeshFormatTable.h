@@ -1,0 +1,32 @@
+#pragma once
+
+#include "sinew/MeshIO/MeshFormats.h"
+#include "sinew/MeshIO/ReadMesh.h"
+#include "sinew/MeshIO/WriteMesh.h"
+
+namespace sinew {
+
+/// A row of the one table of formats, in MeshFormats.cpp.
+struct MeshFormatRow {
+  MeshFormat format;
+  /// Writes the whole file. The mesh is as the caller gave it, LPS mm, checked and with a region for every
+  /// label; `inFile` gives the coordinates to write. @throws std::runtime_error naming the file
+  void (*write)(const TissueMesh& mesh, const std::filesystem::path& file, const WriteMeshOptions& options);
+  TissueMesh (*read)(const std::filesystem::path& file);  ///< nullptr where `format.readable` is false
+};
+
+/// nullptr when there is none.
+const MeshFormatRow* findMeshFormatRow(std::string_view fileName);
+
+/// A point of the mesh in the space and unit of the file.
+inline Eigen::Vector3d inFile(const Eigen::Vector3d& x, const WriteMeshOptions& options) {
+  const double turn = options.space == Space::Ras ? -1 : 1;
+  return options.perMm * Eigen::Vector3d(turn * x.x(), turn * x.y(), x.z());
+}
+
+/// Whether the file is to say which space it is in.
+inline bool saysSpace(const WriteMeshOptions& options) { return options.spaceTag && options.perMm == 1; }
+
+inline const char* toString(Space space) { return space == Space::Ras ? "RAS" : "LPS"; }
+
+}  // namespace sinew
