@@ -25,8 +25,9 @@ void applyLabelTable(Segmentation& segmentation, const LabelTable& table) {
     for (Tissue& tissue : *tissues) {
       const auto found = table.find(tissue.label);
       if (found == table.end()) continue;
-      const auto& [name, color] = found->second;
+      const auto& [name, color, terminology] = found->second;
       tissue.color = color;
+      if (!terminology.empty()) tissue.tags["TerminologyEntry"] = terminology;
       if (name.empty()) continue;
       tissue.name = name;
       if (!tissue.named) tissue.id = name;

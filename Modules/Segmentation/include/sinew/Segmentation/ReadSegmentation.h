@@ -9,7 +9,12 @@
 namespace sinew {
 
 struct ReadSegmentationOptions {
-  std::optional<std::filesystem::path> lut;  ///< colour table for names and colours; overrides the file's own
+  std::optional<std::filesystem::path> lut =
+      {};  ///< colour table for names and colours; overrides the file's own
+
+  /// DICOM SEG of fractional type: voxels of at least this share, in (0, 1], belong to the tissue. Without it
+  /// such files are refused.
+  std::optional<double> fractionalThreshold = {};
 };
 
 /// Reads a labelled volume: .nrrd, .nhdr, .seg.nrrd (one layer or several), .nii, .nii.gz, .mha, .mhd, of any
