@@ -1,7 +1,7 @@
 // Meshes one tissue of a segmentation with CGAL's labelled-image Mesh_3, as CGAL's example mesh_3D_image.cpp
 // does: the peer of `sinew mesh` in the comparison. Reads and writes with Sinew's own modules, so that both
 // programs pay the same for their files.
-#include "sinew/MeshIO/VtuFile.h"
+#include "sinew/MeshIO/WriteMesh.h"
 #include "sinew/Segmentation/ReadSegmentation.h"
 #include "sinew/Segmentation/SelectTissues.h"
 
@@ -104,8 +104,8 @@ void run(const Options& options) {
   const Eigen::Affine3d toPhysical = geometry.indexToPhysical() *
                                      Eigen::Translation3d(box.lower.cast<double>()) *
                                      Eigen::Scaling(geometry.spacing.cwiseInverse().eval());
-  const TetMesh mesh = toTetMesh(complex, toPhysical, tissue.label);
-  writeVtu(mesh, options.output);
+  writeMesh({toTetMesh(complex, toPhysical, tissue.label), {{tissue.label, tissue.name, tissue.color}}, {}},
+            options.output);
   std::cout << "{\"tets\": " << mesh.tets.size() << "}\n";
 }
 

@@ -1,7 +1,7 @@
 #include "Laws.h"
 #include "Targets.h"
+#include "sinew/MeshIO/ReadMesh.h"
 #include "sinew/MeshIO/TriangleFile.h"
-#include "sinew/MeshIO/VtuFile.h"
 
 #include <algorithm>
 
@@ -38,12 +38,13 @@ bool runTriangleMesh(std::string_view bytes, std::string_view extension) {
 }
 
 bool runTetMesh(std::string_view bytes) {
-  const auto mesh = readAs("input.vtu", bytes, &readTetMesh);
+  const auto mesh = readAs("input.vtu", bytes, &readMesh);
   if (!mesh) return false;
-  require(!mesh->tets.empty(), "a mesh without tets");
-  requireFinite(mesh->nodes);
-  requireNodesOf(mesh->tets, mesh->nodes.size());
-  require(mesh->labels.size() == mesh->tets.size() && mesh->kinds.size() == mesh->nodes.size(),
+  const TetMesh& tets = mesh->mesh;
+  require(!tets.tets.empty(), "a mesh without tets");
+  requireFinite(tets.nodes);
+  requireNodesOf(tets.tets, tets.nodes.size());
+  require(tets.labels.size() == tets.tets.size() && tets.kinds.size() == tets.nodes.size(),
           "an array has another size");
   return true;
 }

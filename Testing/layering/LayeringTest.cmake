@@ -37,7 +37,7 @@ set(seeds
   "Modules/LevelSet/src/F.cpp|<lua.h>|bad"
   "Modules/Pipeline/src/F.cpp|\"sinew/Repair/RepairSegmentation.h\"|bad"
   "Applications/sinew/d.cpp|\"sinew/Repair/RepairSegmentation.h\"|fine"
-  "Modules/Pipeline/src/A.cpp|\"sinew/MeshIO/VtuFile.h\"|fine"
+  "Modules/Pipeline/src/A.cpp|\"sinew/MeshIO/WriteMesh.h\"|fine"
   "Modules/Pipeline/src/B.cpp|<nlohmann/json.hpp>|fine"
   "Modules/Pipeline/src/LevelSetSurface.cpp|<openvdb/openvdb.h>|bad"
   "Modules/Pipeline/src/C.cpp|\"sinew/LevelSet/LevelSetGrid.h\"|bad"

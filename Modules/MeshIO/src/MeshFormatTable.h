@@ -9,10 +9,13 @@ namespace sinew {
 /// A row of the one table of formats, in MeshFormats.cpp.
 struct MeshFormatRow {
   MeshFormat format;
-  /// Writes the whole file. The mesh is as the caller gave it, LPS mm, checked and with a region for every
-  /// label; `inFile` gives the coordinates to write. @throws std::runtime_error naming the file
+  /// Writes the whole file, under a temporary name. The mesh is as the caller gave it, LPS mm, checked and
+  /// with a region for every label; `inFile` gives the coordinates to write.
+  /// @throws std::runtime_error saying what went wrong; writeMesh names the file and removes it
   void (*write)(const TissueMesh& mesh, const std::filesystem::path& file, const WriteMeshOptions& options);
-  TissueMesh (*read)(const std::filesystem::path& file);  ///< nullptr where `format.readable` is false
+  /// The tets, their labels and regions; nullptr where `format.readable` is false. readMesh adds the rest.
+  /// @throws std::runtime_error naming the file
+  TissueMesh (*read)(const std::filesystem::path& file);
 };
 
 /// nullptr when there is none.

@@ -1,7 +1,8 @@
 #include "sinew/MeshIO/MeshFormats.h"
 
+#include "LegacyVtkFile.h"
 #include "MeshFormatTable.h"
-#include "VtuFormat.h"
+#include "VtuFile.h"
 
 #include <algorithm>
 #include <array>
@@ -14,7 +15,8 @@ namespace {
 using enum MeshContent;
 
 constexpr std::array kRows{
-    MeshFormatRow{{".vtu", "VTK XML unstructured grid", Volume, true}, &writeVtuFormat, &readVtuFormat},
+    MeshFormatRow{{".vtu", "VTK XML unstructured grid", Volume, true}, &writeVtu, &readVtu},
+    MeshFormatRow{{".vtk", "legacy VTK 4.2", Volume, true}, &writeLegacyVtk, &readLegacyVtk},
 };
 
 bool endsWith(std::string_view name, std::string_view extension) {

@@ -2,17 +2,31 @@
 
 #include "FileFailure.h"
 #include "MeshFormatTable.h"
+#include "sinew/Mesher/MeshConditions.h"
 
 #include <new>
 
 namespace sinew {
+namespace {
+
+std::vector<NodeKind> kindsOf(const TetMesh& mesh) {
+  std::vector<NodeKind> kinds(mesh.nodes.size(), NodeKind::Interior);
+  for (const Triangle& triangle : meshBoundary(mesh).triangles)
+    for (const std::int32_t node : triangle) kinds[static_cast<std::size_t>(node)] = NodeKind::Boundary;
+  return kinds;
+}
+
+}  // namespace
 
 TissueMesh readMesh(const std::filesystem::path& file) try {
   requireReadable(file);
   const MeshFormatRow* row = findMeshFormatRow(file.filename().string());
   if (row == nullptr || row->read == nullptr)
     fail(file, "unknown kind of mesh; " + meshExtensions(true) + " can be read");
-  return row->read(file);
+  TissueMesh mesh = row->read(file);
+  if (mesh.mesh.tets.empty()) fail(file, "has no tetrahedra");
+  mesh.mesh.kinds = kindsOf(mesh.mesh);
+  return mesh;
 } catch (const std::bad_alloc&) {
   fail(file, "needs more memory than there is");
 }

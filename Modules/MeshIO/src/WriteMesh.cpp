@@ -2,6 +2,7 @@
 
 #include "FileFailure.h"
 #include "MeshFormatTable.h"
+#include "Regions.h"
 
 #include <set>
 
@@ -29,8 +30,17 @@ std::vector<TissueRegion> missingRegions(const TissueMesh& mesh) {
   std::set<std::int32_t> missing(mesh.mesh.labels.begin(), mesh.mesh.labels.end());
   for (const TissueRegion& region : mesh.regions) missing.erase(region.label);
   std::vector<TissueRegion> regions;
-  for (const std::int32_t label : missing) regions.push_back({label, "Segment_" + std::to_string(label)});
+  for (const std::int32_t label : missing) regions.push_back(unnamedRegion(label));
   return regions;
+}
+
+void writeComplete(const MeshFormatRow& row, const TissueMesh& mesh, const fs::path& file,
+                   const WriteMeshOptions& options) {
+  const std::vector<TissueRegion> missing = missingRegions(mesh);
+  if (missing.empty()) return row.write(mesh, file, options);
+  TissueMesh complete = mesh;
+  complete.regions.insert(complete.regions.end(), missing.begin(), missing.end());
+  row.write(complete, file, options);
 }
 
 }  // namespace
@@ -39,11 +49,16 @@ void writeMesh(const TissueMesh& mesh, const fs::path& file, const WriteMeshOpti
   checkSizes(mesh);
   const MeshFormatRow* row = findMeshFormatRow(file.filename().string());
   if (row == nullptr) fail(file, "unknown kind of mesh file; known are " + meshExtensions());
-  const std::vector<TissueRegion> missing = missingRegions(mesh);
-  if (missing.empty()) return row->write(mesh, file, options);
-  TissueMesh complete = mesh;
-  complete.regions.insert(complete.regions.end(), missing.begin(), missing.end());
-  row->write(complete, file, options);
+  const bool replaceable = !fs::exists(file) || fs::is_regular_file(file);
+  const fs::path partial = replaceable ? fs::path(file).concat(".partial") : file;
+  try {
+    writeComplete(*row, mesh, partial, options);
+    if (replaceable) fs::rename(partial, file);
+  } catch (const std::runtime_error& error) {
+    std::error_code ignored;
+    if (replaceable) fs::remove(partial, ignored);
+    fail(file, std::string("cannot be written (") + error.what() + ")");
+  }
 }
 
 }  // namespace sinew

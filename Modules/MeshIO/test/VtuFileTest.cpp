@@ -1,4 +1,5 @@
-#include "sinew/MeshIO/VtuFile.h"
+#include "sinew/MeshIO/ReadMesh.h"
+#include "sinew/MeshIO/WriteMesh.h"
 #include "sinew/TestSupport/Files.h"
 #include "sinew/TestSupport/LatticeMesh.h"
 #include "sinew/TestSupport/TempFolder.h"
@@ -37,11 +38,16 @@ TetMesh exampleMesh() {
   return mesh;
 }
 
+void writeTets(const TetMesh& mesh, const fs::path& file, const MeshArrays& further = {}) {
+  writeMesh({mesh, {}, further}, file);
+}
+TetMesh readTets(const fs::path& file) { return readMesh(file).mesh; }
+
 std::string messageOfReading(const fs::path& file) {
-  return messageOf<std::runtime_error>([&] { readTetMesh(file); });
+  return messageOf<std::runtime_error>([&] { readTets(file); });
 }
 std::string messageOfWriting(const fs::path& file) {
-  return messageOf<std::runtime_error>([&] { writeVtu(exampleMesh(), file); });
+  return messageOf<std::runtime_error>([&] { writeTets(exampleMesh(), file); });
 }
 
 /// One line that starts with the file; silence on both streams is checked by the caller.
@@ -67,8 +73,8 @@ class VtuFileErrors : public ::testing::Test {
 TEST(VtuFile, KeepsEveryBit) {
   const TempFolder folder;
   const TetMesh mesh = exampleMesh();
-  writeVtu(mesh, folder / "a.vtu");
-  const TetMesh read = readTetMesh(folder / "a.vtu");
+  writeTets(mesh, folder / "a.vtu");
+  const TetMesh read = readTets(folder / "a.vtu");
   EXPECT_EQ(read.nodes, mesh.nodes);
   EXPECT_EQ(read.tets, mesh.tets);
   EXPECT_EQ(read.labels, mesh.labels);
@@ -77,8 +83,8 @@ TEST(VtuFile, KeepsEveryBit) {
 TEST(VtuFile, KindsComeFromTheBoundary) {
   const TempFolder folder;
   const TetMesh block = test::bccBlock({3, 3, 3});
-  writeVtu(block, folder / "a.vtu");
-  const TetMesh read = readTetMesh(folder / "a.vtu");
+  writeTets(block, folder / "a.vtu");
+  const TetMesh read = readTets(folder / "a.vtu");
   ASSERT_EQ(read.kinds.size(), read.nodes.size());
   // Of a block of n^3 cubes the outer layer of centres is the boundary, and the lattice corners that stick
   // out of it.
@@ -92,9 +98,9 @@ TEST(VtuFile, KindsComeFromTheBoundary) {
 TEST(VtuFile, SameBytesEveryTimeAndFromEveryThread) {
   const TempFolder folder;
   const TetMesh mesh = exampleMesh();
-  writeVtu(mesh, folder / "first.vtu");
+  writeTets(mesh, folder / "first.vtu");
   {
-    const auto writeAgain = [&](const char* name) { writeVtu(mesh, folder / name); };
+    const auto writeAgain = [&](const char* name) { writeTets(mesh, folder / name); };
     std::jthread a(writeAgain, "second.vtu"), b(writeAgain, "third.vtu");
   }
   EXPECT_EQ(readBytes(folder / "first.vtu"), readBytes(folder / "second.vtu"));
@@ -103,9 +109,8 @@ TEST(VtuFile, SameBytesEveryTimeAndFromEveryThread) {
 
 TEST(VtuFile, HasTheFormThatOtherReadersNeed) {
   const TempFolder folder;
-  writeVtu(exampleMesh(), folder / "a.vtu");
+  writeTets(exampleMesh(), folder / "a.vtu");
   const std::string bytes = readBytes(folder / "a.vtu");
-  EXPECT_EQ(bytes.find("FieldData"), std::string::npos);  // meshio and FEBio Studio refuse the file
   EXPECT_EQ(bytes.find("appended"), std::string::npos);   // FEBio Studio does not decode cell data there
   EXPECT_NE(bytes.find("vtkZLibDataCompressor"), std::string::npos);
   EXPECT_NE(bytes.find("<CellData Scalars=\"labels\">"), std::string::npos);
@@ -115,7 +120,7 @@ TEST(VtuFile, HasTheFormThatOtherReadersNeed) {
 
 TEST(VtuFile, LabelsAreTheActiveScalars) {
   const TempFolder folder;
-  writeVtu(exampleMesh(), folder / "a.vtu");
+  writeTets(exampleMesh(), folder / "a.vtu");
   const vtkNew<vtkXMLUnstructuredGridReader> reader;
   reader->SetFileName((folder / "a.vtu").c_str());
   reader->Update();
@@ -133,13 +138,13 @@ TEST(VtuFile, FurtherArraysStandBesideTheLabels) {
                    {"other", std::vector<float>(mesh.tets.size(), -2)}};
   further.points = {{"phi", {}}};
   for (const Eigen::Vector3d& x : mesh.nodes) further.points[0].values.push_back(static_cast<float>(x.x()));
-  writeVtu(mesh, folder / "a.vtu", further);
+  writeTets(mesh, folder / "a.vtu", further);
   const vtkNew<vtkXMLUnstructuredGridReader> reader;
   reader->SetFileName((folder / "a.vtu").c_str());
   reader->Update();
   vtkCellData* cells = reader->GetOutput()->GetCellData();
   EXPECT_STREQ(cells->GetScalars()->GetName(), "labels");
-  ASSERT_EQ(cells->GetNumberOfArrays(), 3);
+  ASSERT_EQ(cells->GetNumberOfArrays(), 4) << "and RGB";
   EXPECT_EQ(cells->GetArray("quality")->GetDataType(), VTK_FLOAT);
   EXPECT_EQ(cells->GetArray("quality")->GetComponent(7, 0), 1.5);
   EXPECT_EQ(cells->GetArray("other")->GetComponent(7, 0), -2);
@@ -147,18 +152,18 @@ TEST(VtuFile, FurtherArraysStandBesideTheLabels) {
   ASSERT_NE(phi, nullptr);
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
     ASSERT_EQ(phi->GetComponent(vtkIdType(n), 0), static_cast<float>(mesh.nodes[n].x()));
-  EXPECT_EQ(readTetMesh(folder / "a.vtu").tets, mesh.tets);
+  EXPECT_EQ(readTets(folder / "a.vtu").tets, mesh.tets);
 }
 
 TEST(VtuFile, LeavesNothingButTheFile) {
   const TempFolder folder;
   writeBytes(folder / "a.vtu", "an older file");
-  writeVtu(exampleMesh(), folder / "a.vtu");
+  writeTets(exampleMesh(), folder / "a.vtu");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
-  EXPECT_EQ(readTetMesh(folder / "a.vtu").tets, exampleMesh().tets);
+  EXPECT_EQ(readTets(folder / "a.vtu").tets, exampleMesh().tets);
 }
 
-TEST(ReadTetMesh, PassesOtherCellsOverAndReadsLegacyFiles) {
+TEST(ReadMesh, PassesOtherCellsOverAndReadsLegacyFiles) {
   const TempFolder folder;
   writeBytes(folder / "a.vtk",
              "# vtk DataFile Version 3.0\nmixed\nASCII\nDATASET UNSTRUCTURED_GRID\n"
@@ -166,17 +171,17 @@ TEST(ReadTetMesh, PassesOtherCellsOverAndReadsLegacyFiles) {
              "CELLS 3 14\n3 0 1 2\n4 0 1 2 3\n4 4 1 3 2\nCELL_TYPES 3\n5\n10\n10\n"
              "CELL_DATA 3\nSCALARS other float 1\nLOOKUP_TABLE default\n9 9 9\n"
              "SCALARS labels int 1\nLOOKUP_TABLE default\n5 6 7\n");
-  const TetMesh mesh = readTetMesh(folder / "a.vtk");
+  const TetMesh mesh = readTets(folder / "a.vtk");
   EXPECT_EQ(mesh.tets, (std::vector<Tet>{{0, 1, 2, 3}, {4, 1, 3, 2}}));
   EXPECT_EQ(mesh.labels, (std::vector<std::int32_t>{6, 7}));
 }
 
-TEST(ReadTetMesh, WithoutLabelsTheyAreOne) {
+TEST(ReadMesh, WithoutLabelsTheyAreOne) {
   const TempFolder folder;
   writeBytes(folder / "a.vtk",
              "# vtk DataFile Version 3.0\none\nASCII\nDATASET UNSTRUCTURED_GRID\n"
              "POINTS 4 float\n0 0 0 1 0 0 0 1 0 0 0 1\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n");
-  EXPECT_EQ(readTetMesh(folder / "a.vtk").labels, std::vector<std::int32_t>{1});
+  EXPECT_EQ(readTets(folder / "a.vtk").labels, std::vector<std::int32_t>{1});
 }
 
 /// VTK crashed on this one: it looked for the name of the array in point data that are not there.
@@ -217,7 +222,7 @@ TEST_F(VtuFileErrors, NotAMesh) {
 }
 
 TEST_F(VtuFileErrors, EveryTruncationIsNoticed) {
-  writeVtu(exampleMesh(), folder_ / "whole.vtu");
+  writeTets(exampleMesh(), folder_ / "whole.vtu");
   const std::string whole = readBytes(folder_ / "whole.vtu");
   const std::size_t body = whole.rfind("</VTKFile>");
   for (std::size_t length = 0; length < body; length += 97) {
@@ -227,7 +232,7 @@ TEST_F(VtuFileErrors, EveryTruncationIsNoticed) {
 }
 
 TEST_F(VtuFileErrors, DamagedData) {
-  writeVtu(exampleMesh(), folder_ / "a.vtu");
+  writeTets(exampleMesh(), folder_ / "a.vtu");
   std::string bytes = readBytes(folder_ / "a.vtu");
   const std::size_t connectivity = bytes.find('\n', bytes.find("Name=\"connectivity\""));
   std::fill_n(bytes.begin() + std::ptrdiff_t(connectivity) + 60, 40, 'A');
@@ -256,7 +261,7 @@ TEST_F(VtuFileErrors, BadCells) {
 }
 
 TEST_F(VtuFileErrors, NoTets) {
-  writeVtu({}, folder_ / "empty.vtu");
+  writeTets({}, folder_ / "empty.vtu");
   EXPECT_NE(messageOfReading(folder_ / "empty.vtu").find("no tetrahedra"), std::string::npos);
 }
 
@@ -270,7 +275,7 @@ TEST_F(VtuFileErrors, UnwritablePlaces) {
 TEST_F(VtuFileErrors, AFullDiskLeavesTheOlderFile) {
   std::signal(SIGXFSZ, SIG_IGN);
   writeBytes(folder_ / "a.vtu", "an older file");
-  writeVtu(exampleMesh(), folder_ / "whole.vtu");
+  writeTets(exampleMesh(), folder_ / "whole.vtu");
   rlimit before{};
   getrlimit(RLIMIT_FSIZE, &before);
   // The limit stands in for the disk, down to the bytes that the stream holds back until it closes.
@@ -289,11 +294,11 @@ TEST_F(VtuFileErrors, AFullDiskLeavesTheOlderFile) {
 TEST_F(VtuFileErrors, LabelsThatDoNotFit) {
   TetMesh mesh = exampleMesh();
   mesh.labels.pop_back();
-  EXPECT_THROW(writeVtu(mesh, folder_ / "a.vtu"), std::invalid_argument);
+  EXPECT_THROW(writeTets(mesh, folder_ / "a.vtu"), std::invalid_argument);
   const std::string message = messageOf<std::invalid_argument>([&] {
-    writeVtu(exampleMesh(), folder_ / "a.vtu", {.cells = {}, .points = {{"phi", {1, 2}}}});
+    writeTets(exampleMesh(), folder_ / "a.vtu", {.cells = {}, .points = {{"phi", {1, 2}}}});
   });
-  EXPECT_TRUE(message.starts_with("writeVtu: 2 phi for ")) << message;
+  EXPECT_TRUE(message.starts_with("writeMesh: 2 phi for ")) << message;
   EXPECT_FALSE(fs::exists(folder_ / "a.vtu"));
 }
 

@@ -4,7 +4,7 @@
 #include "MeasureFidelity.h"
 #include "TissueLevelSet.h"
 #include "WorstElements.h"
-#include "sinew/MeshIO/VtuFile.h"
+#include "sinew/MeshIO/ReadMesh.h"
 #include "sinew/Pipeline/FileNames.h"
 #include "sinew/Segmentation/SelectTissues.h"
 
@@ -56,13 +56,13 @@ const Tissue& tissueOf(const std::filesystem::path& file, const TetMesh& mesh, c
 }  // namespace
 
 MeshAssessment assessMesh(const std::filesystem::path& file) {
-  const TetMesh mesh = readTetMesh(file);
+  const TetMesh mesh = readMesh(file).mesh;
   return assess(file, mesh, meshBoundary(mesh));
 }
 
 MeshAssessment assessMesh(const std::filesystem::path& file, const Segmentation& reference,
                           const std::string& wish, const Smoothing& smoothing) {
-  const TetMesh mesh = readTetMesh(file);
+  const TetMesh mesh = readMesh(file).mesh;
   const Tissue& tissue = tissueOf(file, mesh, reference, wish);
   const MeshBoundary boundary = meshBoundary(mesh);
   MeshAssessment assessment = assess(file, mesh, boundary);

@@ -11,7 +11,7 @@
 #include "UnderResolution.h"
 #include "VolumeOffset.h"
 #include "WorstElements.h"
-#include "sinew/MeshIO/VtuFile.h"
+#include "sinew/MeshIO/WriteMesh.h"
 #include "sinew/Mesher/MoveBoundary.h"
 #include "sinew/Pipeline/Memory.h"
 #include "sinew/Pipeline/OutputFile.h"
@@ -84,15 +84,16 @@ class TissueRun {
   }
 
   void run(const std::filesystem::path& folder) {
-    const TetMesh mesh = generate();
+    TetMesh mesh = generate();
     if (mesh.tets.empty()) return lose();
     measure(mesh);
     const std::string wrong = unsoundness(report_.quality, report_.conditions);
     if (!wrong.empty()) throw std::runtime_error("the mesh is unsound and was not written: " + wrong);
     advance("writing", kAfterMeasure);
     OutputFile output(folder / job_.file);
-    writeVtu(mesh, output.temporary(),
-             options_.withQuality ? qualityArrays(mesh, *surface_, frame_) : MeshArrays{});
+    MeshArrays arrays = options_.withQuality ? qualityArrays(mesh, *surface_, frame_) : MeshArrays{};
+    writeMesh({std::move(mesh), {{tissue_.label, tissue_.name, tissue_.color}}, std::move(arrays)},
+              output.temporary());
     output.commit();
     lap("writing");
     report_.file = job_.file;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sinew/MeshIO/VtuFile.h"
+#include "sinew/MeshIO/TissueMesh.h"
 #include "sinew/Mesher/SignedDistance.h"
 
 namespace sinew {

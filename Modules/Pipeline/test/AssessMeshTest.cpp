@@ -1,4 +1,4 @@
-#include "sinew/MeshIO/VtuFile.h"
+#include "sinew/MeshIO/WriteMesh.h"
 #include "sinew/Pipeline/AssessMesh.h"
 #include "sinew/Segmentation/Phantom.h"
 #include "sinew/TestSupport/Files.h"
@@ -67,7 +67,7 @@ TEST(AssessMesh, ATissueThatCannotBeToldIsRefused) {
   mesh.tets = {{0, 1, 2, 3}};
   mesh.labels = {77};
   mesh.kinds.assign(4, NodeKind::Boundary);
-  writeVtu(mesh, folder / "x.vtu");
+  writeMesh({mesh, {}, {}}, folder / "x.vtu");
   const std::string message =
       test::messageOf<std::invalid_argument>([&] { assessMesh(folder / "x.vtu", nested, ""); });
   EXPECT_NE(message.find("x.vtu: 0 tissues"), std::string::npos) << message;

@@ -1,4 +1,4 @@
-#include "sinew/MeshIO/VtuFile.h"
+#include "sinew/MeshIO/ReadMesh.h"
 #include "sinew/Pipeline/MeshTissues.h"
 #include "sinew/Segmentation/Phantom.h"
 #include "sinew/TestSupport/Files.h"
@@ -93,7 +93,7 @@ TEST(MeshTissues, WritesOneSoundMeshPerTissueAndNamesWhatIsLost) {
     EXPECT_LT(report.fidelity.maxBoundaryPhi, 1e-3 * report.edgeLength);
     EXPECT_GT(report.seconds.size(), 3u);
 
-    const TetMesh mesh = readTetMesh(folder / report.file);
+    const TetMesh mesh = readMesh(folder / report.file).mesh;
     EXPECT_EQ(static_cast<std::int64_t>(mesh.tets.size()), report.quality.tets);
     EXPECT_EQ(mesh.labels.front(), report.label);
     const Eigen::Vector3d centre =
@@ -292,7 +292,7 @@ TEST(MeshTissues, QualityGoesIntoTheFileOnRequest) {
 TEST(MeshTissues, TheWorstTetsAreInTheMeshThatWasWritten) {
   const test::TempFolder folder;
   const TissueReport report = meshTissues(ballsAndThread(), {0}, folder.path(), coarse()).front();
-  const TetMesh mesh = readTetMesh(folder / "ball.vtu");
+  const TetMesh mesh = readMesh(folder / "ball.vtu").mesh;
   ASSERT_EQ(report.worst.size(), 3 * kRankedTets);
   EXPECT_EQ(report.worst[0].value, report.quality.maxAspectRatio);
   for (const WorstElement& worst : report.worst) {

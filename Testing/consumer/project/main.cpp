@@ -1,7 +1,7 @@
 // Meshes a phantom with an installed Sinew: consumer FOLDER
 #include <exception>
 #include <iostream>
-#include <sinew/MeshIO/VtuFile.h>
+#include <sinew/MeshIO/ReadMesh.h>
 #include <sinew/Pipeline/MeshTissues.h>
 #include <sinew/Segmentation/Phantom.h>
 
@@ -18,7 +18,7 @@ int main(int argc, char** argv) try {
               << report.message << '\n';
     complete &= report.status == sinew::TissueStatus::Meshed && report.conditions.good();
     if (!report.file.empty())
-      complete &= std::ssize(sinew::readTetMesh(folder / report.file).tets) == report.quality.tets;
+      complete &= std::ssize(sinew::readMesh(folder / report.file).mesh.tets) == report.quality.tets;
   }
   return complete ? 0 : 1;
 } catch (const std::exception& error) {

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "sinew/MeshIO/WriteMesh.h"
+
+namespace sinew {
+
+/// Legacy VTK, version 4.2, binary: most other programs read no newer one. The arrays of tissueGrid; the
+/// title holds `SPACE=LPS` or `SPACE=RAS`, where 3D Slicer looks for it. The names of the tissues find no
+/// place.
+void writeLegacyVtk(const TissueMesh& mesh, const std::filesystem::path& file,
+                    const WriteMeshOptions& options);
+TissueMesh readLegacyVtk(const std::filesystem::path& file);
+
+}  // namespace sinew

@@ -1,0 +1,167 @@
+#include "TissueGrid.h"
+
+#include "FieldMarks.h"
+#include "MeshFormatTable.h"
+#include "Regions.h"
+#include "VtkArrays.h"
+#include "VtkReading.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkDoubleArray.h>
+#include <vtkFloatArray.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkTypeInt32Array.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace sinew {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char *kLabels = "labels", *kColors = "RGB", *kMaterial = "material";
+
+// ---- to VTK ----
+
+vtkSmartPointer<vtkDoubleArray> coordinates(const std::vector<Eigen::Vector3d>& nodes,
+                                            const WriteMeshOptions& options) {
+  static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double));
+  const auto* data = reinterpret_cast<const double*>(nodes.data());
+  if (options.space == Space::Lps && options.perMm == 1)
+    return wrapArray<vtkDoubleArray>("Points", data, 3 * nodes.size(), 3);
+  const auto array = vtkSmartPointer<vtkDoubleArray>::New();
+  array->SetName("Points");
+  array->SetNumberOfComponents(3);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(nodes.size()));
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    array->SetTypedTuple(static_cast<vtkIdType>(n), inFile(nodes[n], options).data());
+  return array;
+}
+
+vtkSmartPointer<vtkUnsignedCharArray> colorsOf(const TissueMesh& mesh) {
+  const auto colors = regionColors(mesh.regions);
+  const auto array = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  array->SetName(kColors);
+  array->SetNumberOfComponents(3);
+  array->SetNumberOfTuples(std::ssize(mesh.mesh.labels));
+  for (std::size_t t = 0; t < mesh.mesh.labels.size(); ++t)
+    array->SetTypedTuple(static_cast<vtkIdType>(t), colors.at(mesh.mesh.labels[t]).data());
+  return array;
+}
+
+void addArrays(const std::vector<MeshArray>& arrays, vtkDataSetAttributes* attributes) {
+  for (const MeshArray& array : arrays)
+    attributes->AddArray(
+        wrapArray<vtkFloatArray>(array.name.c_str(), array.values.data(), array.values.size(), 1));
+}
+
+// ---- from VTK ----
+
+/// The label of one cell: whole, and in the range of the original values.
+std::int32_t labelOf(vtkDataArray* labels, vtkIdType cell, const fs::path& file) {
+  if (labels == nullptr) return 1;
+  const double value = labels->GetComponent(cell, 0);
+  using Limits = std::numeric_limits<std::int32_t>;
+  if (!(value == std::floor(value) && value >= Limits::min() && value <= Limits::max()))
+    fail(file, "cell " + std::to_string(cell) + " has the label " + std::to_string(value) +
+                   ", which is not a 32-bit whole number");
+  return static_cast<std::int32_t>(value);
+}
+
+Tet tetOf(const vtkIdType* points, vtkIdType cell, std::size_t nodeCount, const fs::path& file) {
+  Tet tet{};
+  for (int k = 0; k < 4; ++k) {
+    if (points[k] < 0 || static_cast<std::size_t>(points[k]) >= nodeCount)
+      fail(file, "cell " + std::to_string(cell) + " names a node that is not there");
+    tet[k] = static_cast<std::int32_t>(points[k]);
+  }
+  return tet;
+}
+
+/// A cell array of so many components; nullptr when there is none.
+vtkDataArray* cellArray(vtkUnstructuredGrid* grid, const char* name, int components) {
+  vtkDataArray* array = grid->GetCellData()->GetArray(name);
+  return array != nullptr && array->GetNumberOfComponents() == components ? array : nullptr;
+}
+
+std::array<double, 3> colorOf(vtkDataArray* colors, vtkIdType cell) {
+  std::array<double, 3> color{};
+  for (int part = 0; part < 3; ++part) color[part] = colors->GetComponent(cell, part) / 255;
+  return color;
+}
+
+void takeTets(vtkUnstructuredGrid* grid, const fs::path& file, TetMesh& mesh,
+              std::map<std::int32_t, vtkIdType>& firstCells) {
+  vtkDataArray* labels = cellArray(grid, kLabels, 1);
+  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell) {
+    if (grid->GetCellType(cell) != VTK_TETRA) continue;
+    vtkIdType size = 0;
+    const vtkIdType* points = nullptr;
+    grid->GetCells()->GetCellAtId(cell, size, points);
+    if (size != 4) fail(file, "cell " + std::to_string(cell) + " is a tet without four nodes");
+    const std::int32_t label = labelOf(labels, cell, file);
+    if (mesh.labels.empty() || mesh.labels.back() != label) firstCells.try_emplace(label, cell);
+    mesh.tets.push_back(tetOf(points, cell, mesh.nodes.size(), file));
+    mesh.labels.push_back(label);
+  }
+}
+
+/// @param firstCells  a cell of each label, which has its colour
+std::vector<TissueRegion> regionsOf(vtkUnstructuredGrid* grid,
+                                    const std::map<std::int32_t, vtkIdType>& firstCells) {
+  vtkDataArray* colors = cellArray(grid, kColors, 3);
+  if (colors != nullptr && colors->GetDataType() != VTK_UNSIGNED_CHAR) colors = nullptr;
+  const std::vector<TissueRegion> marked = markedRegions(grid->GetFieldData());
+  std::vector<TissueRegion> regions;
+  for (const auto& [label, cell] : firstCells) {
+    const auto named = std::ranges::find(marked, label, &TissueRegion::label);
+    regions.push_back(named != marked.end() ? *named : unnamedRegion(label));
+    if (colors != nullptr) regions.back().color = colorOf(colors, cell);
+  }
+  return regions;
+}
+
+}  // namespace
+
+vtkSmartPointer<vtkUnstructuredGrid> tissueGrid(const TissueMesh& mesh, const WriteMeshOptions& options) {
+  static_assert(sizeof(Tet) == 4 * sizeof(std::int32_t));
+  const TetMesh& tets = mesh.mesh;
+  const auto points = vtkSmartPointer<vtkPoints>::New();
+  points->SetData(coordinates(tets.nodes, options));
+  const auto cells = vtkSmartPointer<vtkCellArray>::New();
+  const auto* indices = reinterpret_cast<const std::int32_t*>(tets.tets.data());
+  cells->SetData(4, wrapArray<vtkTypeInt32Array>("connectivity", indices, 4 * tets.tets.size(), 1));
+
+  const auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  grid->SetPoints(points);
+  grid->SetCells(VTK_TETRA, cells);
+  const auto labels = [&](const char* name) {
+    return wrapArray<vtkTypeInt32Array>(name, tets.labels.data(), tets.labels.size(), 1);
+  };
+  grid->GetCellData()->SetScalars(labels(kLabels));
+  grid->GetCellData()->AddArray(colorsOf(mesh));
+  if (options.material) grid->GetCellData()->AddArray(labels(kMaterial));
+  addArrays(mesh.arrays.cells, grid->GetCellData());
+  addArrays(mesh.arrays.points, grid->GetPointData());
+  return grid;
+}
+
+TissueMesh tissueMeshOf(vtkUnstructuredGrid* grid, bool ras, const fs::path& file) {
+  TissueMesh mesh;
+  mesh.mesh.nodes = nodesOf(grid, file);
+  if (ras)
+    for (Eigen::Vector3d& node : mesh.mesh.nodes) node = inFile(node, {.space = Space::Ras});
+  std::map<std::int32_t, vtkIdType> firstCells;
+  takeTets(grid, file, mesh.mesh, firstCells);
+  mesh.regions = regionsOf(grid, firstCells);
+  return mesh;
+}
+
+}  // namespace sinew
