@@ -16,7 +16,7 @@ set(CMAKE_MESSAGE_LOG_LEVEL WARNING)  # notices of Imath and gdcm about parts th
 find_package(OpenVDB 10 REQUIRED)
 find_package(ITK 5.2 REQUIRED COMPONENTS ITKCommon ITKIOImageBase ITKIONRRD ITKIOMeta ITKIONIFTI)
 unset(CMAKE_MESSAGE_LOG_LEVEL)
-find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel CommonMisc IOLegacy IOXML)
+find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel CommonMisc IOLegacy IOXML pugixml utf8)
 
 if(CMAKE_FIND_PACKAGE_NAME STREQUAL "Sinew")
   return()  # a consumer: the rest is for building Sinew itself
