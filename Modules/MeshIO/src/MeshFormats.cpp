@@ -2,6 +2,7 @@
 
 #include "LegacyVtkFile.h"
 #include "MeshFormatTable.h"
+#include "SurfaceWriters.h"
 #include "VtuFile.h"
 
 #include <algorithm>
@@ -17,6 +18,10 @@ using enum MeshContent;
 constexpr std::array kRows{
     MeshFormatRow{{".vtu", "VTK XML unstructured grid", Volume, true}, &writeVtu, &readVtu},
     MeshFormatRow{{".vtk", "legacy VTK 4.2", Volume, true}, &writeLegacyVtk, &readLegacyVtk},
+    MeshFormatRow{{".stl", "stereolithography, binary", Surface, false}, &writeStl, nullptr},
+    MeshFormatRow{{".ply", "Stanford polygons, binary", Surface, false}, &writePly, nullptr},
+    MeshFormatRow{{".obj", "Wavefront", Surface, false}, &writeObj, nullptr},
+    MeshFormatRow{{".vtp", "VTK XML polygons", Surface, false}, &writeVtp, nullptr},
 };
 
 bool endsWith(std::string_view name, std::string_view extension) {

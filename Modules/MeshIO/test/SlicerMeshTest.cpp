@@ -14,7 +14,9 @@
 #include <vtkUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include <csignal>
 #include <sstream>
+#include <sys/resource.h>
 
 namespace sinew {
 namespace {
@@ -137,6 +139,20 @@ TEST_P(SlicerMeshes, ColoursSurviveToWithinAByte) {
 TEST_P(SlicerMeshes, UnitsScaleTheCoordinates) {
   const auto grid = readGrid(write("metres", {.perMm = 0.001}));
   EXPECT_EQ(Eigen::Vector3d(grid->GetPoint(5)), 0.001 * twoTissues().mesh.nodes[5]);
+}
+
+TEST_P(SlicerMeshes, AFullDiskIsNoticedToTheLastByte) {
+  const fs::path file = write("mesh");
+  const std::string whole = readBytes(file);
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit full{.rlim_cur = whole.size() - 1, .rlim_max = before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &full);
+  EXPECT_THROW(write("mesh"), std::runtime_error);
+  setrlimit(RLIMIT_FSIZE, &before);
+  EXPECT_EQ(readBytes(file), whole);
+  EXPECT_EQ(std::distance(fs::directory_iterator(file.parent_path()), {}), 1);
 }
 
 TEST(SlicerVtu, M1_TheSpaceIsOneTextInTheFieldData) {
