@@ -3,7 +3,9 @@
 #include "GridTransform.h"
 #include "sinew/LevelSet/LevelSetGrid.h"
 
+#include <openvdb/io/Archive.h>
 #include <openvdb/io/File.h>
+#include <openvdb/io/GridDescriptor.h>
 #include <openvdb/io/Stream.h>
 
 #include <cmath>
@@ -34,13 +36,36 @@ FloatGrid::Ptr firstLevelSet(const openvdb::GridPtrVec& grids) {
   return nullptr;
 }
 
+/// The table of contents of a file.
+class Contents : openvdb::io::Archive {
+ public:
+  /// Whether all grids end inside of the file; a file without places of its grids is taken as whole.
+  bool areWhole(std::istream& in, std::streamoff fileSize) {
+    readHeader(in);
+    openvdb::io::setVersion(in, libraryVersion(), fileVersion());
+    if (!inputHasGridOffsets()) return true;
+    openvdb::MetaMap().readMeta(in);
+    const std::int32_t grids = readGridCount(in);
+    for (std::int32_t g = 0; g < grids; ++g) {
+      openvdb::io::GridDescriptor grid;
+      grid.read(in);
+      if (grid.getEndPos() < in.tellg() || grid.getEndPos() > fileSize) return false;
+      grid.seekToEnd(in);
+    }
+    return true;
+  }
+};
+
 /// OpenVDB's errors, and those of the standard library on sizes that a damaged file claims, as ours. OpenVDB
-/// does not look whether a read succeeded and goes on with sizes it never read, so the stream has to throw at
-/// the file's end.
+/// does not look whether a read succeeded, so the stream throws at the file's end; that leaks the tree being
+/// read, so files that end too early are told by their contents first.
 FloatGrid::Ptr readGrid(const fs::path& file) try {
   constexpr bool kDelayed = false;  // a file that changes later must not change the grid
   std::ifstream in(file, std::ios::binary);
   in.exceptions(std::ios::badbit | std::ios::failbit | std::ios::eofbit);
+  if (!Contents().areWhole(in, static_cast<std::streamoff>(fs::file_size(file))))
+    throw std::runtime_error("it ends too early");
+  in.seekg(0);
   return firstLevelSet(*openvdb::io::Stream(in, kDelayed).getGrids());
 } catch (const std::exception& error) {
   fail(file, "damaged or no OpenVDB file (" + lineOf(error) + ")");
