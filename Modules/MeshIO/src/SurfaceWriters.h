@@ -13,8 +13,8 @@ namespace sinew {
 /// Source: 3D Systems 1988, StereoLithography interface specification.
 void writeStl(const TissueMesh& mesh, const std::filesystem::path& file, const WriteMeshOptions& options);
 
-/// Binary, double; the space in a comment; `red`, `green`, `blue` and `label` of each face.
-/// Source: Turk 1994, the PLY polygon file format.
+/// Binary, double; the space in a comment; `red`, `green`, `blue` and `label` of each vertex, since fewer
+/// programs read them of faces, and tissues share no vertex. Source: Turk 1994, the PLY polygon file format.
 void writePly(const TissueMesh& mesh, const std::filesystem::path& file, const WriteMeshOptions& options);
 
 /// The space in a comment; a group for each tissue, named as it is, white space replaced by `_`.
