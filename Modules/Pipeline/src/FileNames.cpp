@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <locale.h>
 #include <map>
 #include <set>
 #include <string_view>
+#include <wctype.h>
 
 namespace sinew {
 namespace {
@@ -38,6 +40,28 @@ std::size_t characterLength(std::string_view text, std::size_t at) {
   return length;
 }
 
+/// The character of a length that characterLength found.
+char32_t characterAt(std::string_view text, std::size_t at, std::size_t length) {
+  constexpr std::array<unsigned, 5> kLeadBits{0, 0x7F, 0x1F, 0x0F, 0x07};
+  char32_t character = static_cast<unsigned char>(text[at]) & kLeadBits[length];
+  for (std::size_t i = 1; i < length; ++i)
+    character = character << 6 | (static_cast<unsigned char>(text[at + i]) & 0x3F);
+  return character;
+}
+
+/// What two stems share that a file system without regard to case takes for one.
+std::u32string withoutCase(const std::string& stem) {
+  static const locale_t utf8 = newlocale(LC_CTYPE_MASK, "C.UTF-8", nullptr);
+  std::u32string key;
+  for (std::size_t at = 0, length = 0; at < stem.size(); at += length) {
+    length = characterLength(stem, at);
+    const char32_t character = characterAt(stem, at, length);
+    key +=
+        utf8 != nullptr ? static_cast<char32_t>(towlower_l(static_cast<wint_t>(character), utf8)) : character;
+  }
+  return key;
+}
+
 bool reserved(const std::string& stem) {
   const std::string name = lowerCase(stem.substr(0, stem.find('.')));
   if (std::find(kDevices.begin(), kDevices.end(), name) != kDevices.end()) return true;
@@ -68,24 +92,24 @@ std::string sanitized(std::string_view name) {
 
 std::vector<std::string> tissueFileStems(const std::vector<Tissue>& tissues) {
   std::vector<std::string> stems;
-  std::map<std::string, int> sameName;
-  std::map<std::pair<std::string, std::int32_t>, int> sameNameAndLabel;
+  std::map<std::u32string, int> sameName;
+  std::map<std::pair<std::u32string, std::int32_t>, int> sameNameAndLabel;
   for (const Tissue& tissue : tissues) {
     stems.push_back(sanitized(tissue.name));
-    const std::string key = lowerCase(stems.back());
+    const std::u32string key = withoutCase(stems.back());
     ++sameName[key];
     ++sameNameAndLabel[{key, tissue.label}];
   }
-  std::set<std::string> used;
+  std::set<std::u32string> used;
   for (std::size_t t = 0; t < tissues.size(); ++t)
-    if (sameName[lowerCase(stems[t])] == 1) used.insert(lowerCase(stems[t]));
+    if (sameName[withoutCase(stems[t])] == 1) used.insert(withoutCase(stems[t]));
   for (std::size_t t = 0; t < tissues.size(); ++t) {
-    const std::string key = lowerCase(stems[t]);
+    const std::u32string key = withoutCase(stems[t]);
     if (sameName[key] == 1) continue;
     stems[t].append("_").append(std::to_string(tissues[t].label));
     if (sameNameAndLabel[{key, tissues[t].label}] > 1)
       stems[t].append("_layer").append(std::to_string(tissues[t].layer));
-    while (!used.insert(lowerCase(stems[t])).second) stems[t] += "_";
+    while (!used.insert(withoutCase(stems[t])).second) stems[t] += "_";
   }
   return stems;
 }

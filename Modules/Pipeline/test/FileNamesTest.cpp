@@ -49,6 +49,26 @@ TEST(FileNames, SharedNamesGetTheLabelAndSharedLabelsTheLayer) {
             (Stems{"bone_1_layer0", "bone_1_layer1", "bone_2"}));
 }
 
+TEST(FileNames, M6_CaseIsNoDifferenceInAnyScript) {
+  EXPECT_EQ(stemsOf({{"MÜLLER", 1}, {"müller", 2}, {"Ухо", 3}, {"ухо", 4}, {"œil", 5}, {"Œil", 6}}),
+            (Stems{"MÜLLER_1", "müller_2", "Ухо_3", "ухо_4", "œil_5", "Œil_6"}));
+}
+
+TEST(FileNames, M6_NamesThatDifferOnlyInWhatIsRefusedOrCutStayApart) {
+  const std::string longName(200, 'x');
+  const Stems stems = stemsOf({{"a b", 1},
+                               {"a/b", 2},
+                               {"a_b", 3},
+                               {"", 4},
+                               {"_tissue", 5},
+                               {longName + "1", 6},
+                               {longName + "2", 7},
+                               {"\"a\"", 8},
+                               {"<a>", 9}});
+  EXPECT_EQ(std::set<std::string>(stems.begin(), stems.end()).size(), stems.size());
+  for (const std::string& stem : stems) EXPECT_LT(stem.size(), 200u);
+}
+
 TEST(FileNames, AnAppendedLabelNeverMeetsAnotherName) {
   const Stems stems = stemsOf({{"bone", 1}, {"bone_1", 5}, {"bone", 2}, {"bone_2", 6}, {"bone_2_", 7}});
   EXPECT_EQ(std::set<std::string>(stems.begin(), stems.end()).size(), stems.size());
