@@ -8,6 +8,8 @@
 #include <itkNrrdImageIO.h>
 
 #include <iostream>
+#include <locale.h>
+#include <locale>
 #include <memory>
 #include <new>
 #include <sstream>
@@ -37,6 +39,35 @@ class Silence {
   std::ostringstream nowhere_;
   std::streambuf* cerr_ = std::cerr.rdbuf(nowhere_.rdbuf());
   std::streambuf* cout_ = std::cout.rdbuf(nowhere_.rdbuf());
+};
+
+/// While it lives, numbers have a decimal point and no thousands separators, for C's functions in this thread
+/// and for new C++ streams, whatever the user's language: in Germany, NrrdIO reads 0.5 as 0, and MetaIO 10.5
+/// as 10.
+class PointDecimals {
+ public:
+  PointDecimals() {
+    uselocale(plain_);
+    // Setting a named locale resets C's as well: leave it alone where nothing is to do.
+    if (hasCommas(before_)) std::locale::global(std::locale(before_, new std::numpunct<char>));
+  }
+  ~PointDecimals() {
+    if (hasCommas(before_)) std::locale::global(before_);
+    uselocale(beforeInC_);
+    freelocale(plain_);
+  }
+  PointDecimals(const PointDecimals&) = delete;
+  PointDecimals& operator=(const PointDecimals&) = delete;
+
+ private:
+  static bool hasCommas(const std::locale& locale) {
+    const auto& numbers = std::use_facet<std::numpunct<char>>(locale);
+    return numbers.decimal_point() != '.' || !numbers.grouping().empty();
+  }
+
+  std::locale before_;
+  locale_t beforeInC_ = uselocale(locale_t{});
+  locale_t plain_ = newlocale(LC_NUMERIC_MASK, "C", duplocale(beforeInC_));
 };
 
 /// ITK's exceptions have many lines; the last one names the cause, behind the name of a function.
@@ -223,6 +254,7 @@ LabelImage readNiftiOrMeta(const fs::path& file, const ImageHeader& header) {
 
 LabelImage readItkImage(const fs::path& file, const ImageHeader& header, bool layered) {
   const Silence silence;
+  const PointDecimals pointDecimals;
   try {
     return header.format == ImageFormat::Nrrd ? readNrrd(file, header, layered)
                                               : readNiftiOrMeta(file, header);

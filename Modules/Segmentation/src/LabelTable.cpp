@@ -1,5 +1,6 @@
 #include "sinew/Segmentation/LabelTable.h"
 
+#include "Terminology.h"
 #include "Text.h"
 
 #include <algorithm>
@@ -91,7 +92,7 @@ Entry parseColumns(std::string_view line) {
   const auto name = std::span(words).subspan(1, words.size() - 1 - numbers);
   const auto color = byteColor(std::span(words).last(numbers));
   if (!color) return std::nullopt;
-  return std::pair(*label, LabelTableEntry{joined(name), *color});
+  return std::pair(*label, LabelTableEntry{.name = joined(name), .color = *color});
 }
 
 /// MRtrix's own table: `label short-name name r g b a`, no spaces in names.
@@ -101,7 +102,7 @@ Entry parseMrtrix(std::string_view line) {
   const auto label = text::number<std::int32_t>(words[0]);
   const auto color = byteColor(std::span(words).subspan(3));
   if (!label || !color) return std::nullopt;
-  return std::pair(*label, LabelTableEntry{std::string(words[2]), *color});
+  return std::pair(*label, LabelTableEntry{.name = std::string(words[2]), .color = *color});
 }
 
 /// `IDX R G B A VIS MSH "LABEL"`
@@ -113,7 +114,8 @@ Entry parseItkSnap(std::string_view line) {
   const auto label = text::number<std::int32_t>(words[0]);
   const auto color = byteColor(std::span(words).subspan(1));
   if (!label || !color) return std::nullopt;
-  return std::pair(*label, LabelTableEntry{std::string(line.substr(open + 1, close - open - 1)), *color});
+  return std::pair(
+      *label, LabelTableEntry{.name = std::string(line.substr(open + 1, close - open - 1)), .color = *color});
 }
 
 LabelTable parseLines(const std::filesystem::path& file, std::span<const Line> lines,
@@ -131,27 +133,36 @@ LabelTable parseLines(const std::filesystem::path& file, std::span<const Line> l
   return table;
 }
 
-/// Cells of a line of comma or tab separated values; a cell in quotes may hold separators and doubled quotes.
+/// Cells of a line of comma or tab separated values; a cell in quotes may hold separators and doubled quotes,
+/// and keeps its white space.
 std::vector<std::string> cells(std::string_view line, char separator) {
   std::vector<std::string> result(1);
-  bool quoted = false;
+  bool quoted = false, keep = false;
+  const auto endCell = [&] {
+    if (!keep) result.back() = std::string(text::trim(result.back()));
+    keep = false;
+  };
   for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"')
+    if (line[i] == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"') {
       result.back() += line[++i];
-    else if (line[i] == '"')
+    } else if (line[i] == '"') {
+      keep = true;
       quoted = !quoted;
-    else if (line[i] == separator && !quoted)
+    } else if (line[i] == separator && !quoted) {
+      endCell();
       result.emplace_back();
-    else
+    } else {
       result.back() += line[i];
+    }
   }
-  for (std::string& cell : result) cell = text::trim(cell);
+  endCell();
   return result;
 }
 
 /// Where a table with a header line keeps what we need; Slicer's names first, then those of BIDS and others.
 struct CellColumns {
   std::optional<std::size_t> label, name, red, green, blue, hex;
+  std::vector<std::optional<std::size_t>> codes;  ///< as terminology::columns()
 };
 
 std::optional<std::size_t> findColumn(const std::vector<std::string>& header,
@@ -164,12 +175,16 @@ std::optional<std::size_t> findColumn(const std::vector<std::string>& header,
 }
 
 CellColumns cellColumns(const std::vector<std::string>& header) {
+  std::vector<std::optional<std::size_t>> codes;
+  for (const std::string& name : terminology::columns())
+    codes.push_back(findColumn(header, {text::lower(name)}));
   return {.label = findColumn(header, {"labelvalue", "index", "label", "id", "value"}),
           .name = findColumn(header, {"name"}),
           .red = findColumn(header, {"color_r", "r", "red"}),
           .green = findColumn(header, {"color_g", "g", "green"}),
           .blue = findColumn(header, {"color_b", "b", "blue"}),
-          .hex = findColumn(header, {"color"})};
+          .hex = findColumn(header, {"color"}),
+          .codes = std::move(codes)};
 }
 
 /// `#rrggbb`
@@ -192,6 +207,10 @@ Entry parseCells(const std::vector<std::string>& row, const CellColumns& columns
   const auto label = text::number<std::int32_t>(cell(columns.label));
   if (!label) return std::nullopt;
   LabelTableEntry entry{.name = text::toUtf8(cell(columns.name))};
+  if (columns.hex && entry.name == "n/a") entry.name.clear();  // how BIDS writes that there is none
+  std::vector<std::string> codes;
+  for (const auto& column : columns.codes) codes.push_back(text::toUtf8(cell(column)));
+  entry.terminology = terminology::entry(codes);
   if (columns.red && columns.green && columns.blue) {
     const std::array rgb{cell(columns.red), cell(columns.green), cell(columns.blue)};
     const auto color = byteColor(rgb);
@@ -223,6 +242,22 @@ bool isSlicerTable(const std::filesystem::path& file, std::string_view comments)
          text::lower(file.extension().string()) == ".ctbl";
 }
 
+/// `# label 12 is named left_kidney`: what writeLabelTable says of names that the underscores would change.
+void applyNamesInComments(LabelTable& table, std::string_view comments) {
+  constexpr std::string_view mark = "# label ", verb = " is named ";
+  for (std::string_view line : text::split(comments, '\n')) {
+    if (!line.starts_with(mark)) continue;
+    line.remove_prefix(mark.size());
+    const auto end = line.find(verb);
+    if (end == std::string_view::npos) continue;
+    const auto label = text::number<std::int32_t>(line.substr(0, end));
+    const auto entry = label ? table.find(*label) : table.end();
+    // A separator that no line holds: the name is the only cell.
+    if (entry != table.end())
+      entry->second.name = text::toUtf8(cells(line.substr(end + verb.size()), '\n').front());
+  }
+}
+
 void underscoresToSpaces(LabelTable& table) {
   for (auto& [label, entry] : table) {
     std::ranges::replace(entry.name, '_', ' ');
@@ -248,7 +283,10 @@ LabelTable readLabelTable(const std::filesystem::path& file) {
   if (std::ranges::all_of(lines, [](const Line& line) { return parseMrtrix(line.text).has_value(); }))
     return parseLines(file, lines, parseMrtrix, "label short-name name r g b a");
   LabelTable table = parseLines(file, lines, parseColumns, "label name r g b a");
-  if (isSlicerTable(file, comments)) underscoresToSpaces(table);
+  if (isSlicerTable(file, comments)) {
+    underscoresToSpaces(table);
+    applyNamesInComments(table, comments);
+  }
   return table;
 }
 

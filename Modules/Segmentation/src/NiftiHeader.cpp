@@ -1,4 +1,5 @@
 #include "ImageFormats.h"
+#include "NiftiFields.h"
 #include "Text.h"
 #include "UnpackStream.h"
 
@@ -16,13 +17,7 @@ namespace sinew {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::size_t kHeaderBytes = 348;
-
-/// Byte offsets of the fields.
-constexpr std::size_t kDim = 40, kIntentCode = 68, kDatatype = 70, kPixdim = 76, kVoxOffset = 108,
-                      kSlope = 112, kIntercept = 116, kUnits = 123, kQformCode = 252, kSformCode = 254,
-                      kQuatern = 256, kSrow = 280, kMagic = 344;
+using namespace nifti;
 
 /// The fixed header, read field by field.
 class NiftiFields {

@@ -11,14 +11,17 @@ struct z_stream_s;
 /// The door to zlib.
 namespace sinew {
 
-/// Packs bytes into one gzip member. Its header carries no time and no name: the same bytes give the same
-/// file.
-class GzipWriter {
+/// What stands around the packed bytes.
+enum class Wrapper { Gzip, Zlib };
+
+/// Packs bytes into one gzip member or one zlib stream. Neither carries a time or a name: the same bytes give
+/// the same file.
+class DeflateWriter {
  public:
-  explicit GzipWriter(std::ostream& out);
-  ~GzipWriter();
-  GzipWriter(const GzipWriter&) = delete;
-  GzipWriter& operator=(const GzipWriter&) = delete;
+  DeflateWriter(std::ostream& out, Wrapper wrapper);
+  ~DeflateWriter();
+  DeflateWriter(const DeflateWriter&) = delete;
+  DeflateWriter& operator=(const DeflateWriter&) = delete;
 
   void write(std::span<const std::byte> bytes);
   /// Call it once, at the end.

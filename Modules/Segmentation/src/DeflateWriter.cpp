@@ -1,4 +1,4 @@
-#include "GzipWriter.h"
+#include "DeflateWriter.h"
 
 #include <new>
 #include <zlib.h>
@@ -12,21 +12,22 @@ constexpr int kWindow = 15, kGzipWrapper = 16;
 
 }  // namespace
 
-GzipWriter::GzipWriter(std::ostream& out)
+DeflateWriter::DeflateWriter(std::ostream& out, Wrapper wrapper)
     : out_(out), packed_(kBuffer), stream_(std::make_unique<z_stream>()) {
   constexpr int memoryLevel = 8;  // zlib's default
-  if (deflateInit2(stream_.get(), Z_DEFAULT_COMPRESSION, Z_DEFLATED, kWindow + kGzipWrapper, memoryLevel,
+  const int window = wrapper == Wrapper::Gzip ? kWindow + kGzipWrapper : kWindow;
+  if (deflateInit2(stream_.get(), Z_DEFAULT_COMPRESSION, Z_DEFLATED, window, memoryLevel,
                    Z_DEFAULT_STRATEGY) != Z_OK)
     throw std::bad_alloc();
 }
 
-GzipWriter::~GzipWriter() { deflateEnd(stream_.get()); }
+DeflateWriter::~DeflateWriter() { deflateEnd(stream_.get()); }
 
-void GzipWriter::write(std::span<const std::byte> bytes) { deflateAll(bytes, Z_NO_FLUSH); }
+void DeflateWriter::write(std::span<const std::byte> bytes) { deflateAll(bytes, Z_NO_FLUSH); }
 
-void GzipWriter::finish() { deflateAll({}, Z_FINISH); }
+void DeflateWriter::finish() { deflateAll({}, Z_FINISH); }
 
-void GzipWriter::deflateAll(std::span<const std::byte> bytes, int flush) {
+void DeflateWriter::deflateAll(std::span<const std::byte> bytes, int flush) {
   stream_->next_in =
       reinterpret_cast<unsigned char*>(const_cast<std::byte*>(bytes.data()));  // zlib only reads
   stream_->avail_in = static_cast<uInt>(bytes.size());
