@@ -1,5 +1,6 @@
 # Every foreign library, found once. The modules name the targets they need; the installed package repeats the search.
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(DCMTK 3.6.7 REQUIRED NO_MODULE)
 find_package(TBB REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(ISAL REQUIRED)

@@ -12,8 +12,9 @@ set(below_Applications ${modules})
 
 # Foreign libraries: what their includes look like, and the files that may have them. Tests and benchmarks may use what
 # the module's src/ may. LevelSetGrid.h counts as OpenVDB, because it brings all of it.
-set(libraries ITK VTK OpenVDB Lua CLI11 json Qhull)
+set(libraries ITK DCMTK VTK OpenVDB Lua CLI11 json Qhull)
 set(include_ITK "^itk")
+set(include_DCMTK "^dcmtk/")
 set(include_VTK "^vtk")
 set(include_OpenVDB "^(openvdb|Imath|boost)/|^sinew/LevelSet/LevelSetGrid\\.h$")
 set(include_Lua "^(lua|lauxlib)")
@@ -21,6 +22,7 @@ set(include_CLI11 "^CLI/")
 set(include_json "^nlohmann/")
 set(include_Qhull "^libqhull")
 set(allowed_ITK "^Modules/Segmentation/(src|test|bench)/")
+set(allowed_DCMTK "^Modules/Segmentation/(src/DicomFile\\.cpp$|test/)")
 set(allowed_VTK "^Modules/MeshIO/(src|test|bench)/")
 set(allowed_OpenVDB "^Modules/LevelSet/((src|test|bench)/|include/sinew/LevelSet/LevelSetGrid\\.h$)")
 set(allowed_Lua "^Modules/Repair/src/")

@@ -6,6 +6,9 @@ include(${CMAKE_CURRENT_LIST_DIR}/Layering.cmake)
 set(seeds
   "Modules/Segmentation/src/A.cpp|<itkImage.h>|fine"
   "Modules/Segmentation/include/sinew/Segmentation/A.h|<itkImage.h>|bad"
+  "Modules/Segmentation/src/DicomFile.cpp|<dcmtk/dcmdata/dctk.h>|fine"
+  "Modules/Segmentation/src/DicomGeometry.cpp|<dcmtk/dcmdata/dctk.h>|bad"
+  "Modules/Segmentation/include/sinew/Segmentation/B.h|<dcmtk/dcmdata/dctk.h>|bad"
   "Modules/Segmentation/src/B.cpp|\"sinew/LevelSet/LevelSet.h\"|bad"
   "Modules/LevelSet/src/A.cpp|\"sinew/Segmentation/Segmentation.h\"|fine"
   "Modules/LevelSet/src/B.cpp|<openvdb/openvdb.h>|fine"

@@ -28,7 +28,10 @@ void requireReadableFile(const fs::path& file) {
   if (status.type() == fs::file_type::none)
     text::refuse(file, "cannot be read (" + error.message() + "); check its permissions");
   if (!fs::exists(status)) text::refuse(file, "there is no such file; check the path");
-  if (fs::is_directory(status)) text::refuse(file, "is a folder; name the image file inside it");
+  if (fs::is_directory(status))
+    text::refuse(
+        file,
+        "is a folder; name the image file inside it (of a DICOM series: the one that is the segmentation)");
   if (!fs::is_regular_file(status)) text::refuse(file, "is not a regular file; name an image file");
   if (!std::ifstream(file)) text::refuse(file, "cannot be opened for reading; check its permissions");
   if (fs::file_size(file) == 0) text::refuse(file, "is empty; export the segmentation again");
@@ -51,8 +54,6 @@ bool isMeta(std::string_view front) {
   });
 }
 
-bool isDicom(std::string_view front) { return front.size() >= 132 && front.substr(128, 4) == "DICM"; }
-
 /// `20 x 30 x 40`
 std::string shape(std::span<const std::int64_t> sizes) {
   std::string text;
@@ -67,12 +68,11 @@ ImageHeader readImageHeader(const fs::path& file) {
   const std::string front = readFront(file, kFront);
   if (front.starts_with("NRRD")) return readNrrdHeader(file);
   if (isNifti(front)) return readNiftiHeader(file);
-  if (isDicom(front))
-    text::refuse(file, "is a DICOM file; open it in 3D Slicer and export it as a segmentation (.seg.nrrd)");
   if (isMeta(front)) return readMetaHeader(file);
-  text::refuse(file,
-               "is not an image that Sinew reads (NRRD, NIfTI-1 or MetaImage); export the segmentation as "
-               ".seg.nrrd, .nii.gz or .mha");
+  text::refuse(
+      file,
+      "is not an image that Sinew reads (NRRD, NIfTI-1, MetaImage or DICOM SEG); export the segmentation as "
+      ".seg.nrrd, .nii.gz or .mha");
 }
 
 std::string readFront(const fs::path& file, std::size_t count) {

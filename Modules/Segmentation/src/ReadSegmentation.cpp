@@ -1,5 +1,6 @@
 #include "sinew/Segmentation/ReadSegmentation.h"
 
+#include "DicomSegmentation.h"
 #include "ImageHeader.h"
 #include "ItkImage.h"
 #include "SlicerKeys.h"
@@ -82,11 +83,7 @@ void applyLabelTable(Segmentation& segmentation, const LabelTable& table) {
     }
 }
 
-}  // namespace
-
-Segmentation readSegmentation(const std::filesystem::path& file, const ReadSegmentationOptions& options) {
-  // The table first: a wrong one is found before the long work.
-  const LabelTable table = options.lut ? readLabelTable(*options.lut) : LabelTable{};
+Segmentation readImageSegmentation(const std::filesystem::path& file) {
   const ImageHeader header = readImageHeader(file);
   LabelImage image = readItkImage(file, header, isLayered(header));
   if (isPlaceholder(image.geometry))
@@ -106,6 +103,16 @@ Segmentation readSegmentation(const std::filesystem::path& file, const ReadSegme
                slicer::readExtents(header.keys, segmentation.tissues.size(), segmentation.geometry.size));
   }
   updateTissueTable(segmentation);
+  return segmentation;
+}
+
+}  // namespace
+
+Segmentation readSegmentation(const std::filesystem::path& file, const ReadSegmentationOptions& options) {
+  // The table first: a wrong one is found before the long work.
+  const LabelTable table = options.lut ? readLabelTable(*options.lut) : LabelTable{};
+  Segmentation segmentation =
+      isDicom(file) ? readDicomSegmentation(file, options.fractionalThreshold) : readImageSegmentation(file);
   if (segmentation.tissues.empty())
     text::refuse(file,
                  "has no voxel other than 0, so there is no tissue in it; check that it is the segmentation");

@@ -19,8 +19,9 @@ const std::vector<std::string>& columns();
 /// The cells of an entry, in the order of columns(); empty ones for what it lacks.
 std::vector<std::string> cells(std::string_view entry);
 
-/// The entry of these cells, without the names of lists; empty when all are.
-std::string entry(const std::vector<std::string>& cells);
+/// The entry of these cells; empty when all are. The separators of entries cannot stand inside of them.
+std::string entry(const std::vector<std::string>& cells, const std::string& list = {},
+                  const std::string& regionList = {});
 
 /// The same codes without the names of the lists they come from, which tables cannot hold.
 std::string withoutLists(std::string_view entry);

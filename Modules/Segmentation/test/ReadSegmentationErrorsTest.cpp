@@ -79,7 +79,7 @@ std::vector<BadFile> badFiles() {
       {"text", "a.nrrd", "hello\n", "is not an image"},
       {"text named NIfTI", "a.nii.gz", "hello\n", "is not an image"},
       {"picture", "a.png", "\x89PNG\r\n", "is not an image"},
-      {"DICOM", "a.dcm", std::string(128, '\0') + "DICM", "is a DICOM file"},
+      {"DICOM", "a.dcm", std::string(128, '\0') + "DICM", "DICOM"},
 
       {"NRRD header alone", "a.nrrd", "NRRD0004\n", "`dimension` and `sizes`"},
       {"NRRD raw truncated", "a.nrrd", without(test::nrrd({}, raw), 20), "truncated"},

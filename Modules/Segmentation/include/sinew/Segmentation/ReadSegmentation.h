@@ -18,10 +18,13 @@ struct ReadSegmentationOptions {
 };
 
 /// Reads a labelled volume: .nrrd, .nhdr, .seg.nrrd (one layer or several), .nii, .nii.gz, .mha, .mhd, of any
-/// integer pixel type, or floating point when every value is whole. Geometry is ITK's (LPS mm).
-/// Format and Slicer segmentations are recognised by the content, not by the name. The sform of a NIfTI file
-/// that ITK 5.2 refuses (no qform, and sheared or off by rounding) is taken as it stands.
-/// @throws std::runtime_error: one line that names the file, what is wrong and what to do.
+/// integer pixel type, or floating point when every value is whole; and DICOM segmentations (binary,
+/// overlapping ones to several layers, fractional, label maps). Geometry is ITK's (LPS mm). Formats and
+/// Slicer segmentations are recognised by the content, not by the name. The sform of a NIfTI file that
+/// ITK 5.2 refuses (no qform, and sheared or off by rounding) is taken as it stands. A Slicer layer ends
+/// where the Extents of its segments end, as in 3D Slicer, with a warning.
+/// @throws std::runtime_error: one line that names the file, what is wrong and what to do;
+///         std::invalid_argument for a threshold outside (0, 1]
 Segmentation readSegmentation(const std::filesystem::path& file, const ReadSegmentationOptions& options = {});
 
 }  // namespace sinew
