@@ -1,5 +1,7 @@
 #pragma once
 
+#include "GuardedXmlParser.h"
+
 #include <vtkAbstractArray.h>
 #include <vtkDataArraySelection.h>
 #include <vtkXMLReader.h>
@@ -10,6 +12,7 @@ namespace sinew {
 /// - When it cannot read an array of cells, its message asks the point data for the name, and crashes where
 ///   there are none. Sinew has no use for point data: the cell data stand in their place.
 /// - When a cell's offset promises so many values that their bytes overflow, it writes behind its memory.
+/// - What GuardedXmlParser refuses.
 template <class Reader>
 class GuardedXmlReader : public Reader {
  public:
@@ -20,6 +23,8 @@ class GuardedXmlReader : public Reader {
   }
 
  protected:
+  void CreateXMLParser() override { this->XMLParser = GuardedXmlParser::New(); }
+
   int ReadPieceData() override {
     this->PointDataArraySelection->DisableAllArrays();
     this->PointDataElements[this->Piece] = this->CellDataElements[this->Piece];
@@ -30,7 +35,10 @@ class GuardedXmlReader : public Reader {
                       vtkIdType count, vtkXMLReader::FieldType type) override {
     constexpr vtkIdType mostValues = vtkIdType{1} << 40;
     const bool fits = count >= 0 && count <= mostValues && at + count <= array->GetNumberOfValues();
-    return fits ? Reader::ReadArrayValues(element, at, array, first, count, type) : 0;
+    auto* parser = static_cast<GuardedXmlParser*>(this->XMLParser);
+    return fits && parser->blocksAreSound(element)
+               ? Reader::ReadArrayValues(element, at, array, first, count, type)
+               : 0;
   }
 };
 

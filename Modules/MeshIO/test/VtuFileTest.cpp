@@ -111,7 +111,7 @@ TEST(VtuFile, HasTheFormThatOtherReadersNeed) {
   const TempFolder folder;
   writeTets(exampleMesh(), folder / "a.vtu");
   const std::string bytes = readBytes(folder / "a.vtu");
-  EXPECT_EQ(bytes.find("appended"), std::string::npos);   // FEBio Studio does not decode cell data there
+  EXPECT_EQ(bytes.find("appended"), std::string::npos);  // FEBio Studio does not decode cell data there
   EXPECT_NE(bytes.find("vtkZLibDataCompressor"), std::string::npos);
   EXPECT_NE(bytes.find("<CellData Scalars=\"labels\">"), std::string::npos);
   EXPECT_NE(bytes.find("type=\"Int32\" Name=\"labels\""), std::string::npos);
@@ -258,6 +258,27 @@ TEST_F(VtuFileErrors, BadCells) {
   expectNames(messageFor(legacy("0 0 0 nan 0 0 0 1 0 0 0 1", cell, "3")), file);
   EXPECT_NE(messageFor(legacy(points, cell, "2.5")).find("2.5"), std::string::npos);
   EXPECT_NE(messageFor(legacy(points, cell, "3e9")).find("32-bit"), std::string::npos);
+}
+
+/// VTK counted, divided by zero, or ran out of its stack; the corpus of the fuzzers has more of these.
+TEST_F(VtuFileErrors, WhatAHeaderPromisesIsNotBelieved) {
+  writeTets(exampleMesh(), folder_ / "a.vtu");
+  const std::string whole = readBytes(folder_ / "a.vtu");
+  const auto messageWith = [&](const std::string& from, const std::string& to) {
+    std::string bytes = whole;
+    bytes.replace(bytes.find(from), from.size(), to);
+    writeBytes(folder_ / "b.vtu", bytes);
+    return messageOfReading(folder_ / "b.vtu");
+  };
+  const fs::path file = folder_ / "b.vtu";
+  for (const char* many : {"1000000000000", "-5", "1e300"}) {
+    expectNames(messageWith("NumberOfPoints=\"", "NumberOfPoints=\"" + std::string(many)), file);
+    expectNames(messageWith("NumberOfComponents=\"", "NumberOfComponents=\"" + std::string(many)), file);
+    expectNames(messageWith("NumberOfTuples=\"", "NumberOfTuples=\"" + std::string(many)), file);
+  }
+  std::string nested, ends;
+  for (int depth = 0; depth < 100'000; ++depth) nested += "<a>", ends += "</a>";
+  expectNames(messageWith("<Piece", nested + ends + "<Piece"), file);
 }
 
 TEST_F(VtuFileErrors, NoTets) {

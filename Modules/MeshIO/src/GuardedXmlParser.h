@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vtkXMLDataParser.h>
+
+#include <string>
+
+namespace sinew {
+
+/// VTK's parser, which refuses what VTK 9.1 takes a file's word for: it then divides by zero, reads behind
+/// its memory, or counts to 2^31.
+class GuardedXmlParser : public vtkXMLDataParser {
+ public:
+  static GuardedXmlParser* New();
+  vtkTypeMacro(GuardedXmlParser, vtkXMLDataParser)
+
+      GuardedXmlParser(const GuardedXmlParser&) = delete;
+  GuardedXmlParser& operator=(const GuardedXmlParser&) = delete;
+
+  /// @return 0, with an error, also where elements are nested too deep, or promise more than the file can
+  /// hold.
+  int Parse() override;
+
+  /// Do the sizes of an array's compressed blocks fit together, and in the file? True for arrays that are not
+  /// compressed.
+  bool blocksAreSound(vtkXMLDataElement* array);
+
+ protected:
+  GuardedXmlParser() = default;
+  void StartElement(const char* name, const char** attributes) override;
+  void EndElement(const char* name) override;
+
+ private:
+  /// Adds up an attribute `NumberOf...`.
+  void notePromise(const std::string& attribute, const char* value);
+
+  double fileBytes_ = 0;
+  double promised_ = 0;  ///< tuples, points and cells
+  int depth_ = 0;
+  std::string refusal_;
+};
+
+}  // namespace sinew
