@@ -38,17 +38,23 @@ void requireRoundTrip(const Segmentation& segmentation) {
   }
 }
 
-}  // namespace
-
-bool runSegmentation(std::string_view bytes) {
-  putVoxelsBeside();
+bool run(std::string_view name, std::string_view bytes, const ReadSegmentationOptions& options) {
   const auto segmentation =
-      readAs(kName, bytes, [](const std::filesystem::path& file) { return readSegmentation(file); });
+      readAs(name, bytes, [&](const std::filesystem::path& file) { return readSegmentation(file, options); });
   if (!segmentation) return false;
   require(!segmentation->tissues.empty(), "nothing was read");
   requireSound(*segmentation);
   requireRoundTrip(*segmentation);
   return true;
 }
+
+}  // namespace
+
+bool runSegmentation(std::string_view bytes) {
+  putVoxelsBeside();
+  return run(kName, bytes, {});
+}
+
+bool runDicom(std::string_view bytes) { return run("input.dcm", bytes, {.fractionalThreshold = 0.5}); }
 
 }  // namespace sinew::fuzz

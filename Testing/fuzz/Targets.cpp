@@ -7,6 +7,7 @@ namespace {
 
 constexpr std::array kTargets{
     Target{"segmentation", &runSegmentation},
+    Target{"dicom", &runDicom},
     Target{"label-table", &runLabelTable},
     Target{"obj", [](std::string_view bytes) { return runTriangleMesh(bytes, ".obj"); }},
     Target{"ply", [](std::string_view bytes) { return runTriangleMesh(bytes, ".ply"); }},

@@ -18,6 +18,7 @@ std::span<const Target> targets();
 
 // One per kind of input; `extension` as in `.obj`.
 bool runSegmentation(std::string_view bytes);
+bool runDicom(std::string_view bytes);
 bool runLabelTable(std::string_view bytes);
 bool runTriangleMesh(std::string_view bytes, std::string_view extension);
 bool runTetMesh(std::string_view bytes);
