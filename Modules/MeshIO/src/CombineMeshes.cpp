@@ -43,6 +43,14 @@ void append(TetMesh& to, const TetMesh& from, const std::map<std::int32_t, std::
   for (const std::int32_t label : from.labels) to.labels.push_back(labels.at(label));
 }
 
+/// @param first  the number that the first node of `from` has got
+void append(std::vector<CurvedEdge>& to, const std::vector<CurvedEdge>& from, std::size_t first) {
+  for (CurvedEdge edge : from) {
+    for (std::int32_t& node : edge.nodes) node += static_cast<std::int32_t>(first);
+    to.push_back(edge);
+  }
+}
+
 /// Arrays of these names, still empty, that every mesh has.
 std::vector<MeshArray> commonArrays(const std::vector<TissueMesh>& meshes,
                                     std::vector<MeshArray> MeshArrays::*kind) {
@@ -89,6 +97,7 @@ TissueMesh combineMeshes(std::vector<TissueMesh> meshes) {
       region.label = labels[region.label];
       all.regions.push_back(std::move(region));
     }
+    append(all.curvedEdges, mesh.curvedEdges, all.mesh.nodes.size());
     append(all.mesh, mesh.mesh, labels);
     append(all.arrays.cells, mesh.arrays.cells);
     append(all.arrays.points, mesh.arrays.points);

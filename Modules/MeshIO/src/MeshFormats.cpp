@@ -1,5 +1,9 @@
 #include "sinew/MeshIO/MeshFormats.h"
 
+#include "AbaqusFile.h"
+#include "ExodusFile.h"
+#include "FebioFile.h"
+#include "GmshFile.h"
 #include "LegacyVtkFile.h"
 #include "MeshFormatTable.h"
 #include "SurfaceWriters.h"
@@ -18,6 +22,10 @@ using enum MeshContent;
 constexpr std::array kRows{
     MeshFormatRow{{".vtu", "VTK XML unstructured grid", Volume, true}, &writeVtu, &readVtu},
     MeshFormatRow{{".vtk", "legacy VTK 4.2", Volume, true}, &writeLegacyVtk, &readLegacyVtk},
+    MeshFormatRow{{".msh", "Gmsh 2.2", Volume, true}, &writeGmsh, &readGmsh},
+    MeshFormatRow{{".inp", "Abaqus and CalculiX", Volume, false}, &writeAbaqus, nullptr},
+    MeshFormatRow{{".feb", "FEBio 4.0", Volume, false}, &writeFebio, nullptr},
+    MeshFormatRow{{".exo", "Exodus II", Volume, false}, &writeExodus, nullptr},
     MeshFormatRow{{".stl", "stereolithography, binary", Surface, false}, &writeStl, nullptr},
     MeshFormatRow{{".ply", "Stanford polygons, binary", Surface, false}, &writePly, nullptr},
     MeshFormatRow{{".obj", "Wavefront", Surface, false}, &writeObj, nullptr},

@@ -208,7 +208,7 @@ TEST_F(VtuFileErrors, MissingFile) {
 
 TEST_F(VtuFileErrors, UnknownKind) {
   writeBytes(folder_ / "a.stl", "solid");
-  EXPECT_NE(messageOfReading(folder_ / "a.stl").find(".vtu and .vtk"), std::string::npos);
+  EXPECT_NE(messageOfReading(folder_ / "a.stl").find(".vtu, .vtk and .msh"), std::string::npos);
 }
 
 TEST_F(VtuFileErrors, NotAMesh) {

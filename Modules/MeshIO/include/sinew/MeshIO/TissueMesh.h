@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sinew/MeshIO/QuadraticMesh.h"
 #include "sinew/Mesher/TetMesh.h"
 
 #include <array>
@@ -31,6 +32,7 @@ struct TissueMesh {
   TetMesh mesh;                       ///< LPS mm
   std::vector<TissueRegion> regions;  ///< one per label of the mesh
   MeshArrays arrays;
+  std::vector<CurvedEdge> curvedEdges = {};  ///< for tets of ten nodes; ascending by nodes, see curveBoundary
 };
 
 }  // namespace sinew
