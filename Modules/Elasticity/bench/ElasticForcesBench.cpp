@@ -1,0 +1,89 @@
+#include "../test/TestBodies.h"
+#include "sinew/Elasticity/ElasticForces.h"
+#include "sinew/Elasticity/Muscle.h"
+#include "sinew/Elasticity/Newmark.h"
+#include "sinew/Elasticity/Springs.h"
+#include "sinew/Elasticity/StrainLimits.h"
+
+#include <benchmark/benchmark.h>
+
+namespace sinew {
+namespace {
+
+/// A bar of about as many tets as the range says, a little deformed.
+struct Bar {
+  ElasticBody body;
+  NodeVectors places;
+
+  explicit Bar(const benchmark::State& state) {
+    const int cubes = static_cast<int>(std::cbrt(static_cast<double>(state.range(0)) / 6));
+    body = elasticBody(test::barMesh({cubes, cubes, cubes}, 1));
+    places = test::shaken(body.rest, 0.05, 1);
+  }
+};
+
+void sizes(benchmark::internal::Benchmark* bench) {
+  bench->Arg(10'000)->Arg(50'000)->Arg(200'000)->Unit(benchmark::kMillisecond);
+}
+
+void countTets(benchmark::State& state, const Bar& bar, double updates = 1) {
+  state.SetItemsProcessed(state.iterations() *
+                          static_cast<std::int64_t>(updates * static_cast<double>(bar.body.tets.size())));
+}
+
+template <std::unique_ptr<Material> (*law)(const Lame&)>
+void forcesOf(benchmark::State& state) {
+  const Bar bar(state);
+  const auto material = law(lame(30, 0.4));
+  NodeVectors forces(bar.body.nodeCount(), Eigen::Vector3d::Zero());
+  for (auto _ : state) addElasticForces(bar.body, *material, bar.places, forces);
+  countTets(state, bar);
+}
+BENCHMARK(forcesOf<stVenantKirchhoff>)->Apply(sizes);
+BENCHMARK(forcesOf<neoHookean>)->Apply(sizes);
+BENCHMARK(forcesOf<corotated>)->Apply(sizes);
+
+/// One step with all that it does: items are evaluations of a tet, two of forces and one per damping product.
+template <class Make>
+void steps(benchmark::State& state, const Make& make) {
+  Bar bar(state);
+  const auto forces = make(bar.body);
+  const NodeConstraints constraints(bar.body.nodeCount());
+  Motion motion{bar.places, NodeVectors(bar.body.nodeCount(), Eigen::Vector3d::Zero())};
+  double updates = 0;
+  for (auto _ : state) {
+    const NewmarkReport report =
+        newmarkStep(bar.body, *forces, constraints, 1e-6, motion, {.tolerance = 1e-4});
+    updates += 2 + 3 + report.iterations;  // forces; starting residuals and D v; iterations
+  }
+  state.SetItemsProcessed(static_cast<std::int64_t>(updates * static_cast<double>(bar.body.tets.size())));
+}
+
+void newmarkFiniteElements(benchmark::State& state) {
+  const auto material = neoHookean(lame(30, 0.4));
+  steps(state, [&](const ElasticBody& body) {
+    return std::make_unique<FiniteElements>(body, *material, Damping{.alpha = 0.01, .beta = 0.01});
+  });
+}
+BENCHMARK(newmarkFiniteElements)->Apply(sizes);
+
+void newmarkAltitudeSprings(benchmark::State& state) {
+  steps(state, [](const ElasticBody& body) { return std::make_unique<AltitudeSprings>(body); });
+}
+BENCHMARK(newmarkAltitudeSprings)->Apply(sizes);
+
+void strainLimits(benchmark::State& state) {
+  const Bar bar(state);
+  const StrainLimits limits(bar.body, {.sweeps = 1});
+  const NodeConstraints constraints(bar.body.nodeCount());
+  const NodeVectors start = test::randomVectors(bar.body.nodeCount(), 10, 1);
+  for (auto _ : state) {
+    NodeVectors velocities = start;
+    benchmark::DoNotOptimize(limits.apply(constraints, bar.places, 0.01, velocities));
+  }
+  countTets(state, bar);
+}
+BENCHMARK(strainLimits)->Apply(sizes);
+
+}  // namespace
+}  // namespace sinew

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "sinew/Elasticity/ElasticForces.h"
+#include "sinew/Elasticity/NodeConstraints.h"
+
+namespace sinew {
+
+struct EquilibriumOptions {
+  double tolerance = 1e-8;   ///< largest out-of-balance force over the largest force that a tet gives a node
+  int steps = 100;           ///< Newton steps at most
+  int cgIterations = 2000;   ///< per Newton step at most
+  bool keepPositive = true;  ///< no step may take a tet to J <= 0
+};
+
+struct EquilibriumReport {
+  bool converged = false;
+  int steps = 0;
+  int cgIterations = 0;
+  double residual = 0;  ///< out-of-balance force over that of the tets, see tolerance
+  double leastVolumeRatio = 1;
+};
+
+/// Moves the free nodes to where elastic and outer forces are in balance: a minimum of E(x) - f.x, by
+/// Newton's method with conjugate gradients (which stop at directions of negative curvature) and a
+/// backtracking line search that never takes a tet to J <= 0. The held nodes stay where they are: put them in
+/// place first.
+/// @param outerForces  dead loads, mN per node; empty for none
+/// @param places  start, then the result
+/// @throws std::invalid_argument when keepPositive and a tet of the start has J <= 0
+/// Source: Nocedal and Wright 2006, algorithm 7.1 (line search Newton-CG).
+EquilibriumReport findEquilibrium(const ElasticBody& body, const Material& material,
+                                  const NodeConstraints& constraints, const NodeVectors& outerForces,
+                                  NodeVectors& places, const EquilibriumOptions& options = {});
+
+}  // namespace sinew

@@ -1,0 +1,161 @@
+#include "TestBodies.h"
+#include "sinew/Elasticity/Equilibrium.h"
+#include "sinew/Elasticity/Muscle.h"
+
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+
+namespace sinew {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+bool onBox(const Vector3d& place, const Vector3d& size) {
+  return (place.array() < 1e-9).any() || ((size - place).array() < 1e-9).any();
+}
+
+// With its boundary in an affine motion, a homogeneous body follows it everywhere.
+TEST(Equilibrium, PatchTest) {
+  const Matrix3d F = Matrix3d::Identity() + test::randomMatrix(0.1, 3);
+  for (const auto& material :
+       {stVenantKirchhoff(lame(30, 0.3)), neoHookean(lame(30, 0.3)), corotated(lame(30, 0.3))}) {
+    TetMesh mesh = test::barMesh({3, 3, 3}, 1);
+    const NodeVectors shifts = test::randomVectors(mesh.nodes.size(), 0.15, 2);
+    for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
+      if (!onBox(mesh.nodes[n], {3, 3, 3})) mesh.nodes[n] += shifts[n];
+    const ElasticBody body = elasticBody(mesh);
+    NodeConstraints constraints(body.nodeCount());
+    NodeVectors places = body.rest;
+    for (std::size_t n = 0; n < body.nodeCount(); ++n) {
+      places[n] = F * body.rest[n];
+      if (onBox(body.rest[n], {3, 3, 3}))
+        constraints.freedom[n] = NodeFreedom::Held;
+      else
+        places[n] += Vector3d(0.05, -0.03, 0.04);
+    }
+    const EquilibriumReport report =
+        findEquilibrium(body, *material, constraints, {}, places, {.tolerance = 1e-12});
+    EXPECT_TRUE(report.converged) << report.residual;
+    for (std::size_t n = 0; n < body.nodeCount(); ++n)
+      EXPECT_LT((places[n] - F * body.rest[n]).norm(), 1e-10);
+  }
+}
+
+/// Tip deflection of a cantilever of length 16 and width 4 under a shear load at its end, over that of
+/// Timoshenko's beam.
+double cantilever(int across) {
+  const double length = 16, width = 4, young = 100, force = 0.02;
+  const ElasticBody body = elasticBody(test::barMesh({4 * across, across, across}, width / across));
+  NodeConstraints constraints(body.nodeCount());
+  NodeVectors load(body.nodeCount(), Vector3d::Zero()), places = body.rest;
+  std::vector<std::size_t> tip;
+  for (std::size_t n = 0; n < body.nodeCount(); ++n) {
+    if (body.rest[n].x() < 1e-9) constraints.freedom[n] = NodeFreedom::Held;
+    if (body.rest[n].x() > length - 1e-9) tip.push_back(n);
+  }
+  for (const std::size_t n : tip) load[n].z() = force / static_cast<double>(tip.size());
+  const auto material = corotated(lame(young, 0));
+  EXPECT_TRUE(findEquilibrium(body, *material, constraints, load, places, {.tolerance = 1e-7}).converged);
+  double deflection = 0;
+  for (const std::size_t n : tip)
+    deflection += (places[n] - body.rest[n]).z() / static_cast<double>(tip.size());
+  const double inertia = std::pow(width, 4) / 12, shear = young / 2, area = width * width;
+  const double beam =
+      force * std::pow(length, 3) / (3 * young * inertia) + force * length / (5. / 6 * shear * area);
+  return deflection / beam;
+}
+
+// Linear tets are too stiff in bending by O(h^2).
+TEST(Equilibrium, ACantileverConvergesToTheBeam) {
+  const double coarse = 1 - cantilever(4), fine = 1 - cantilever(8);
+  EXPECT_NEAR(std::log2(coarse / fine), 2, 0.35);
+  EXPECT_LT(std::abs(fine), 0.15);
+  EXPECT_LT(std::abs(fine - (coarse - fine) / 3), 0.02);  // what the two say of h = 0
+}
+
+/// A bar along z, whose sides are free, pulled to a stretch; the mean axial force on its end.
+double endForce(const Material& material, const ElasticBody& body, double stretch) {
+  NodeConstraints constraints(body.nodeCount());
+  NodeVectors places = body.rest;
+  double length = 0;
+  for (const Vector3d& place : body.rest) length = std::max(length, place.z());
+  for (std::size_t n = 0; n < body.nodeCount(); ++n) {
+    places[n].z() *= stretch;
+    places[n].head<2>() /= std::sqrt(stretch);
+    if (body.rest[n].z() < 1e-9 || body.rest[n].z() > length - 1e-9) {
+      constraints.freedom[n] = NodeFreedom::Tangential;  // slides across, as in a uniaxial test
+      constraints.normals[n] = Vector3d::UnitZ();
+    }
+  }
+  const EquilibriumReport report =
+      findEquilibrium(body, material, constraints, {}, places, {.tolerance = 1e-9});
+  EXPECT_TRUE(report.converged) << stretch << " " << report.residual;
+  NodeVectors forces(body.nodeCount(), Vector3d::Zero());
+  addElasticForces(body, material, places, forces);
+  double sum = 0;
+  for (std::size_t n = 0; n < body.nodeCount(); ++n)
+    if (body.rest[n].z() > length - 1e-9) sum -= forces[n].z();
+  return sum;
+}
+
+/// P_zz of the law where the sides are free of stress: the root of P_xx over the width.
+double uniaxialStress(const Material& material, double stretch) {
+  double low = 0.3, high = 2;
+  const auto stress = [&](double width) {
+    return material.stress(0, Vector3d(width, width, stretch).asDiagonal());
+  };
+  for (int bisection = 0; bisection < 100; ++bisection) {
+    const double width = (low + high) / 2;
+    (stress(width)(0, 0) > 0 ? high : low) = width;
+  }
+  return stress(low)(2, 2);
+}
+
+TEST(Equilibrium, AMuscleFollowsItsForceLengthLaw) {
+  const ElasticBody body = elasticBody(test::barMesh({2, 2, 6}, 1));
+  Muscle muscle(std::vector<MuscleFibre>(body.tets.size()));
+  for (const double activation : {0., 0.5, 1.})
+    for (const double stretch : {0.9, 1., 1.1, 1.3}) {
+      muscle.activate(activation);
+      const double expected = 4 * uniaxialStress(muscle, stretch);  // mm^2
+      EXPECT_NEAR(endForce(muscle, body, stretch), expected, 0.01 * std::abs(expected) + 1e-6)
+          << activation << " " << stretch;
+      // The law in one dimension: the matrix keeps its volume, and the fibres add their tension.
+      const double mu = MuscleOptions().shear;
+      const double law = mu * (stretch - 1 / (stretch * stretch)) + muscle.fibreTension(0, stretch);
+      EXPECT_NEAR(expected / 4, law, 0.06 * MuscleOptions().tension * std::max(activation, 0.02))
+          << activation << " " << stretch;
+    }
+}
+
+TEST(Equilibrium, NoTetIsInvertedOnTheWay) {
+  const ElasticBody body = elasticBody(test::barMesh({2, 2, 4}, 1));
+  NodeConstraints constraints(body.nodeCount());
+  NodeVectors places = body.rest;
+  for (std::size_t n = 0; n < body.nodeCount(); ++n) {
+    places[n].z() *= 0.4;
+    if (body.rest[n].z() < 1e-9 || body.rest[n].z() > 4 - 1e-9) constraints.freedom[n] = NodeFreedom::Held;
+  }
+  const auto material = neoHookean(lame(30, 0.45));
+  const EquilibriumReport report = findEquilibrium(body, *material, constraints, {}, places);
+  EXPECT_TRUE(report.converged) << report.residual;
+  EXPECT_GT(report.leastVolumeRatio, 0);
+  EXPECT_GT(places[body.nodeCount() / 2].array().abs().maxCoeff(), 0);
+}
+
+TEST(Equilibrium, RefusesAnInvertedStart) {
+  const ElasticBody body = elasticBody(test::barMesh({1, 1, 1}, 1));
+  NodeVectors places = body.rest;
+  places[0] = {2, 2, 2};
+  const auto material = neoHookean(lame(30, 0.3));
+  EXPECT_THROW(findEquilibrium(body, *material, NodeConstraints(body.nodeCount()), {}, places),
+               std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace sinew
