@@ -1,9 +1,9 @@
-#include "../test/TestBodies.h"
 #include "sinew/Elasticity/ElasticForces.h"
 #include "sinew/Elasticity/Muscle.h"
 #include "sinew/Elasticity/Newmark.h"
 #include "sinew/Elasticity/Springs.h"
 #include "sinew/Elasticity/StrainLimits.h"
+#include "sinew/TestSupport/ElasticBars.h"
 
 #include <benchmark/benchmark.h>
 

@@ -1,5 +1,5 @@
-#include "TestBodies.h"
 #include "sinew/Elasticity/ElasticForces.h"
+#include "sinew/TestSupport/ElasticBars.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>

@@ -1,6 +1,6 @@
-#include "TestBodies.h"
 #include "sinew/Elasticity/Material.h"
 #include "sinew/Elasticity/Muscle.h"
+#include "sinew/TestSupport/ElasticBars.h"
 
 #include <Eigen/LU>
 #include <gtest/gtest.h>

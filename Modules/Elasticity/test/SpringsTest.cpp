@@ -1,7 +1,7 @@
-#include "TestBodies.h"
 #include "sinew/Elasticity/Altitude.h"
 #include "sinew/Elasticity/Newmark.h"
 #include "sinew/Elasticity/Springs.h"
+#include "sinew/TestSupport/ElasticBars.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>

@@ -1,6 +1,6 @@
-#include "TestBodies.h"
 #include "sinew/Elasticity/Altitude.h"
 #include "sinew/Elasticity/StrainLimits.h"
+#include "sinew/TestSupport/ElasticBars.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>

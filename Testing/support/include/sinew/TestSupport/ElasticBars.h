@@ -1,12 +1,14 @@
 #pragma once
 
-#include "sinew/Elasticity/ElasticBody.h"
+#include "sinew/Mesher/TetMesh.h"
 
 #include <Eigen/Geometry>
 
 #include <random>
 
 namespace sinew::test {
+
+using NodeVectors = std::vector<Eigen::Vector3d>;
 
 /// A bar of cubes, six tets each (Kuhn), from the origin along the positive axes.
 inline TetMesh barMesh(const Eigen::Vector3i& cubes, double cube) {
