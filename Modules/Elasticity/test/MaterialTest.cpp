@@ -1,3 +1,4 @@
+#include "sinew/Elasticity/ElasticBody.h"
 #include "sinew/Elasticity/Material.h"
 #include "sinew/Elasticity/Muscle.h"
 #include "sinew/TestSupport/ElasticBars.h"
