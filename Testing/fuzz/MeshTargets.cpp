@@ -37,8 +37,8 @@ bool runTriangleMesh(std::string_view bytes, std::string_view extension) {
   return true;
 }
 
-bool runTetMesh(std::string_view bytes) {
-  const auto mesh = readAs("input.vtu", bytes, &readMesh);
+bool runTetMesh(std::string_view bytes, std::string_view extension) {
+  const auto mesh = readAs("input" + std::string(extension), bytes, &readMesh);
   if (!mesh) return false;
   const TetMesh& tets = mesh->mesh;
   require(!tets.tets.empty(), "a mesh without tets");

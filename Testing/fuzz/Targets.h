@@ -21,7 +21,7 @@ bool runSegmentation(std::string_view bytes);
 bool runDicom(std::string_view bytes);
 bool runLabelTable(std::string_view bytes);
 bool runTriangleMesh(std::string_view bytes, std::string_view extension);
-bool runTetMesh(std::string_view bytes);
+bool runTetMesh(std::string_view bytes, std::string_view extension);
 bool runRepairScript(std::string_view bytes);
 
 }  // namespace sinew::fuzz

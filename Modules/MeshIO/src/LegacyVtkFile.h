@@ -9,6 +9,10 @@ namespace sinew {
 /// place.
 void writeLegacyVtk(const TissueMesh& mesh, const std::filesystem::path& file,
                     const WriteMeshOptions& options);
+
+/// Reads versions 1 to 5.1, as text or bytes: tets, the cell arrays `labels` and `RGB`. VTK 9.1's reader
+/// believes what a file says of its cells and arrays, and reads behind its memory.
+/// @throws std::runtime_error naming the file
 TissueMesh readLegacyVtk(const std::filesystem::path& file);
 
 }  // namespace sinew

@@ -1,5 +1,6 @@
 #include "TissueGrid.h"
 
+#include "CheckedCells.h"
 #include "FieldMarks.h"
 #include "MeshFormatTable.h"
 #include "Regions.h"
@@ -16,10 +17,8 @@
 #include <vtkTypeInt32Array.h>
 #include <vtkUnsignedCharArray.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <map>
+#include <array>
+#include <optional>
 
 namespace sinew {
 namespace {
@@ -64,68 +63,29 @@ void addArrays(const std::vector<MeshArray>& arrays, vtkDataSetAttributes* attri
 
 // ---- from VTK ----
 
-/// The label of one cell: whole, and in the range of the original values.
-std::int32_t labelOf(vtkDataArray* labels, vtkIdType cell, const fs::path& file) {
-  if (labels == nullptr) return 1;
-  const double value = labels->GetComponent(cell, 0);
-  using Limits = std::numeric_limits<std::int32_t>;
-  if (!(value == std::floor(value) && value >= Limits::min() && value <= Limits::max()))
-    fail(file, "cell " + std::to_string(cell) + " has the label " + std::to_string(value) +
-                   ", which is not a 32-bit whole number");
-  return static_cast<std::int32_t>(value);
-}
-
-Tet tetOf(const vtkIdType* points, vtkIdType cell, std::size_t nodeCount, const fs::path& file) {
-  Tet tet{};
-  for (int k = 0; k < 4; ++k) {
-    if (points[k] < 0 || static_cast<std::size_t>(points[k]) >= nodeCount)
-      fail(file, "cell " + std::to_string(cell) + " names a node that is not there");
-    tet[k] = static_cast<std::int32_t>(points[k]);
-  }
-  return tet;
-}
-
 /// A cell array of so many components; nullptr when there is none.
 vtkDataArray* cellArray(vtkUnstructuredGrid* grid, const char* name, int components) {
   vtkDataArray* array = grid->GetCellData()->GetArray(name);
   return array != nullptr && array->GetNumberOfComponents() == components ? array : nullptr;
 }
 
-std::array<double, 3> colorOf(vtkDataArray* colors, vtkIdType cell) {
-  std::array<double, 3> color{};
-  for (int part = 0; part < 3; ++part) color[part] = colors->GetComponent(cell, part) / 255;
-  return color;
-}
-
-void takeTets(vtkUnstructuredGrid* grid, const fs::path& file, TetMesh& mesh,
-              std::map<std::int32_t, vtkIdType>& firstCells) {
+void takeTets(vtkUnstructuredGrid* grid, const fs::path& file, TetMesh& mesh, FirstCells& firstCells) {
   vtkDataArray* labels = cellArray(grid, kLabels, 1);
   for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell) {
     if (grid->GetCellType(cell) != VTK_TETRA) continue;
     vtkIdType size = 0;
     const vtkIdType* points = nullptr;
     grid->GetCells()->GetCellAtId(cell, size, points);
-    if (size != 4) fail(file, "cell " + std::to_string(cell) + " is a tet without four nodes");
-    const std::int32_t label = labelOf(labels, cell, file);
-    if (mesh.labels.empty() || mesh.labels.back() != label) firstCells.try_emplace(label, cell);
-    mesh.tets.push_back(tetOf(points, cell, mesh.nodes.size(), file));
-    mesh.labels.push_back(label);
+    mesh.tets.push_back(checkedTet(points, size, cell, mesh.nodes.size(), file));
+    mesh.labels.push_back(labels == nullptr ? 1 : checkedLabel(labels->GetComponent(cell, 0), cell, file));
+    firstCells.note(mesh.labels.back(), cell);
   }
 }
 
-/// @param firstCells  a cell of each label, which has its colour
-std::vector<TissueRegion> regionsOf(vtkUnstructuredGrid* grid,
-                                    const std::map<std::int32_t, vtkIdType>& firstCells) {
+/// Three bytes a cell; nullptr when there are none.
+vtkDataArray* colorArray(vtkUnstructuredGrid* grid) {
   vtkDataArray* colors = cellArray(grid, kColors, 3);
-  if (colors != nullptr && colors->GetDataType() != VTK_UNSIGNED_CHAR) colors = nullptr;
-  const std::vector<TissueRegion> marked = markedRegions(grid->GetFieldData());
-  std::vector<TissueRegion> regions;
-  for (const auto& [label, cell] : firstCells) {
-    const auto named = std::ranges::find(marked, label, &TissueRegion::label);
-    regions.push_back(named != marked.end() ? *named : unnamedRegion(label));
-    if (colors != nullptr) regions.back().color = colorOf(colors, cell);
-  }
-  return regions;
+  return colors != nullptr && colors->GetDataType() == VTK_UNSIGNED_CHAR ? colors : nullptr;
 }
 
 }  // namespace
@@ -158,9 +118,15 @@ TissueMesh tissueMeshOf(vtkUnstructuredGrid* grid, bool ras, const fs::path& fil
   mesh.mesh.nodes = nodesOf(grid, file);
   if (ras)
     for (Eigen::Vector3d& node : mesh.mesh.nodes) node = inFile(node, {.space = Space::Ras});
-  std::map<std::int32_t, vtkIdType> firstCells;
+  FirstCells firstCells;
   takeTets(grid, file, mesh.mesh, firstCells);
-  mesh.regions = regionsOf(grid, firstCells);
+  vtkDataArray* colors = colorArray(grid);
+  const auto colorOf = [&](vtkIdType cell) -> std::optional<std::array<double, 3>> {
+    if (colors == nullptr) return std::nullopt;
+    const double* bytes = colors->GetTuple3(cell);
+    return std::array{bytes[0] / 255, bytes[1] / 255, bytes[2] / 255};
+  };
+  mesh.regions = firstCells.regions(markedRegions(grid->GetFieldData()), colorOf);
   return mesh;
 }
 

@@ -1,12 +1,15 @@
 #include "LegacyVtkFile.h"
-
 #include "MeshFormatTable.h"
 #include "TissueGrid.h"
-#include "VtkReading.h"
+#include "VtkErrorTrap.h"
 
+#include <vtkErrorCode.h>
 #include <vtkObjectFactory.h>
-#include <vtkUnstructuredGridReader.h>
 #include <vtkUnstructuredGridWriter.h>
+
+#include <fstream>
+#include <stdexcept>
+#include <string>
 
 namespace sinew {
 namespace {
@@ -60,17 +63,6 @@ void writeLegacyVtk(const TissueMesh& mesh, const std::filesystem::path& file,
     throw std::runtime_error(vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()));
   if (trap.failed()) throw std::runtime_error(trap.firstError());
   if (!writer->complete()) throw std::runtime_error("the file is incomplete; is the disk full?");
-}
-
-TissueMesh readLegacyVtk(const std::filesystem::path& file) {
-  const auto reader = vtkSmartPointer<vtkUnstructuredGridReader>::New();
-  reader->SetFileName(file.c_str());
-  reader->ReadAllScalarsOn();
-  reader->ReadAllFieldsOn();
-  update(reader, file, "an unstructured grid");
-  const char* title = reader->GetHeader();
-  const bool ras = title != nullptr && std::string_view(title).find("SPACE=RAS") != std::string_view::npos;
-  return tissueMeshOf(reader->GetOutput(), ras, file);
 }
 
 }  // namespace sinew
