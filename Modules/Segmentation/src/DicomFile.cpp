@@ -35,10 +35,14 @@ class Silence {
   dcmtk::log4cplus::LogLevel before_;
 };
 
+/// One line, without the control characters that DICOM forbids.
 std::string textOf(DcmItem& item, const DcmTagKey& tag) {
   OFString value;
   item.findAndGetOFStringArray(tag, value);
-  return text::toUtf8(text::trim({value.c_str(), value.length()}));
+  std::string line(value.c_str(), value.length());
+  std::ranges::replace_if(
+      line, [](unsigned char c) { return c < 0x20 || c == 0x7F; }, ' ');
+  return text::toUtf8(text::trim(line));
 }
 
 std::optional<double> realOf(DcmItem& item, const DcmTagKey& tag, unsigned long position = 0) {

@@ -33,8 +33,7 @@ std::string joined(const Values& values) {
 }
 
 /// TransformMatrix holds the axes one after the other.
-std::string metaHeader(const ImageGeometry& geometry, const VoxelType& type, std::size_t packedBytes,
-                       const std::string& dataFile) {
+std::string metaHeader(const ImageGeometry& geometry, const VoxelType& type, std::size_t packedBytes) {
   std::string header;
   const auto field = [&](std::string_view name, std::string_view value) {
     header.append(name).append(" = ").append(value).append("\n");
@@ -51,7 +50,7 @@ std::string metaHeader(const ImageGeometry& geometry, const VoxelType& type, std
   field("ElementSpacing", joined(geometry.spacing));
   field("DimSize", joined(geometry.size));
   field("ElementType", metaName(type.type));
-  field("ElementDataFile", dataFile);
+  field("ElementDataFile", "LOCAL");
   return header;
 }
 
@@ -68,13 +67,8 @@ std::string packedVoxels(const Segmentation& segmentation, const VoxelType& type
 void writeMeta(const Segmentation& segmentation, const fs::path& file) {
   const VoxelType& type = smallestVoxelType(segmentation);
   const std::string voxels = packedVoxels(segmentation, type);
-  const bool detached = text::lower(file.extension().string()) == ".mhd";
-  const fs::path data = fs::path(file).replace_extension(".zraw");
-  if (detached) writeFile(data, [&](std::ostream& out) { out << voxels; });
   writeFile(file, [&](std::ostream& out) {
-    out << metaHeader(segmentation.geometry, type, voxels.size(),
-                      detached ? data.filename().string() : "LOCAL");
-    if (!detached) out << voxels;
+    out << metaHeader(segmentation.geometry, type, voxels.size()) << voxels;
   });
 }
 

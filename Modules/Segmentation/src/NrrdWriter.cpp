@@ -27,6 +27,7 @@ std::string formatVector(const Eigen::Vector3d& v) {
   return result.append(")");
 }
 
+/// A header has no way to write a carriage return or a null: they become spaces.
 std::string escape(std::string_view value) {
   std::string result;
   for (const char c : value) {
@@ -34,6 +35,8 @@ std::string escape(std::string_view value) {
       result += "\\n";
     else if (c == '\\')
       result += "\\\\";
+    else if (c == '\r' || c == '\0')
+      result += ' ';
     else
       result += c;
   }

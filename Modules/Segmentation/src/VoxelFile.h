@@ -44,7 +44,7 @@ void writeNrrd(const Segmentation& segmentation, const std::filesystem::path& fi
 /// NIfTI-1 of the first layer; gzipped when the name ends in .gz.
 void writeNifti(const Segmentation& segmentation, const std::filesystem::path& file);
 
-/// MetaImage of the first layer, packed; a .mhd has its voxels in a .zraw of the same stem beside it.
+/// MetaImage of the first layer, packed, in one file: also a .mhd, so that it can be renamed.
 void writeMeta(const Segmentation& segmentation, const std::filesystem::path& file);
 
 }  // namespace sinew

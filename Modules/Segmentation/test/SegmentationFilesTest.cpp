@@ -378,6 +378,12 @@ TEST(SegmentationFiles, S12_NamesOfAllKindsRoundTrip) {
   for (std::size_t t = 0; t < names.size(); ++t) EXPECT_EQ(read.tissues[t].name, names[t]);
 }
 
+TEST(SegmentationFiles, S12_WhatAHeaderCannotHoldBecomesASpace) {
+  Segmentation s = test::sampleSegmentation();
+  s.tissues[0].name = std::string("null \0, return \r", 16);
+  EXPECT_EQ(test::writtenAndRead(s).tissues[0].name, "null  , return  ");
+}
+
 TEST(SegmentationFiles, S12_TiltedAnisotropicPhantomRoundTrips) {
   const Segmentation s = makePhantom("sphere", {.spacing = Eigen::Vector3d(1.1, 0.7, 2.3), .tiltDeg = 17});
   const Segmentation read = test::writtenAndRead(s);

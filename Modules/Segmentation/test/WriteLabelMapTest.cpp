@@ -167,11 +167,13 @@ TEST(WriteLabelMap, SameBytesEveryTime) {
   }
 }
 
-TEST(WriteLabelMap, AnMhdHasItsVoxelsBesideIt) {
-  const test::TempFolder folder;
-  writeLabelMap(test::sampleSegmentation(), folder / "a.mhd");
-  EXPECT_TRUE(std::filesystem::exists(folder / "a.zraw"));
-  EXPECT_NE(test::readBytes(folder / "a.mhd").find("ElementDataFile = a.zraw\n"), std::string::npos);
+TEST(WriteLabelMap, EveryFormatIsOneFileThatCanBeRenamed) {
+  for (const std::string& ending : kEndings) {
+    const test::TempFolder folder;
+    writeLabelMap(test::sampleSegmentation(), folder / ("a" + ending));
+    std::filesystem::rename(folder / ("a" + ending), folder / ("b" + ending));
+    EXPECT_EQ(readSegmentation(folder / ("b" + ending)).layers, test::sampleSegmentation().layers) << ending;
+  }
 }
 
 TEST(WriteLabelMap, FaultsAreNamed) {

@@ -21,10 +21,10 @@ struct LabelMapReport {
 };
 
 /// Writes a plain label map, one whole number per voxel, of the smallest integer type that holds the labels:
-/// gzipped NRRD, NIfTI-1 (qform and sform alike), MetaImage (.mhd with a .zraw beside it, which it names:
-/// give it its final name). Geometry is that of the segmentation; NIfTI holds it in single precision, and no
-/// axes that are not at right angles, except in its sform. Names do not fit in: write report.table beside it.
-/// Its bytes depend on nothing but the segmentation.
+/// gzipped NRRD, NIfTI-1 (qform and sform alike), MetaImage (packed; a .mhd is one file, too, with its voxels
+/// behind the header). Geometry is that of the segmentation; NIfTI holds it in single precision, and axes
+/// that are not at right angles only in its sform. Names do not fit in: write report.table beside it. Its
+/// bytes depend on nothing but the segmentation.
 /// @param options  what becomes of overlapping tissues, see mergeLayers
 /// @throws std::invalid_argument for an ending that is not among isLabelMapName's; std::runtime_error naming
 /// the file
