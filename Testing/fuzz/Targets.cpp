@@ -13,6 +13,7 @@ constexpr std::array kTargets{
     Target{"ply", [](std::string_view bytes) { return runTriangleMesh(bytes, ".ply"); }},
     Target{"stl", [](std::string_view bytes) { return runTriangleMesh(bytes, ".stl"); }},
     Target{"vtp", [](std::string_view bytes) { return runTriangleMesh(bytes, ".vtp"); }},
+    Target{"msh", [](std::string_view bytes) { return runTetMesh(bytes, ".msh"); }},
     Target{"vtk", [](std::string_view bytes) { return runTetMesh(bytes, ".vtk"); }},
     Target{"vtu", [](std::string_view bytes) { return runTetMesh(bytes, ".vtu"); }},
     Target{"repair-script", &runRepairScript},
