@@ -4,9 +4,8 @@
 #include <vtkObjectFactory.h>
 #include <vtkXMLDataElement.h>
 
-#include <array>
+#include <algorithm>
 #include <bit>
-#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <istream>
@@ -63,10 +62,8 @@ void GuardedXmlParser::notePromise(const std::string& attribute, const char* val
     refusal_ = "an array has " + std::string(value).substr(0, 40) + " components";
 }
 
-bool GuardedXmlParser::blocksAreSound(vtkXMLDataElement* array) {
-  const char* format = array->GetAttribute("format");
-  if (Compressor == nullptr || format == nullptr || std::string_view(format) == "ascii") return true;
-  if (std::string_view(format) == "appended") {
+void GuardedXmlParser::goToData(vtkXMLDataElement* array) {
+  if (std::string_view(array->GetAttribute("format")) == "appended") {
     vtkTypeInt64 offset = 0;
     array->GetScalarAttribute("offset", offset);
     DataStream = AppendedDataStream;
@@ -75,24 +72,44 @@ bool GuardedXmlParser::blocksAreSound(vtkXMLDataElement* array) {
     DataStream = InlineDataStream;
     SeekInlineDataPosition(array);
   }
-  // Three numbers: blocks, bytes of a block, bytes of the last block where they are fewer.
-  const std::size_t wordBytes = static_cast<std::size_t>(HeaderType) / 8;
-  std::array<unsigned char, 3 * sizeof(std::uint64_t)> bytes{};
   DataStream->SetStream(Stream);
-  DataStream->StartReading();
-  const bool whole = DataStream->Read(bytes.data(), 3 * wordBytes) == 3 * wordBytes;
-  DataStream->EndReading();
-  if (!whole) return false;
-  PerformByteSwap(bytes.data(), 3, wordBytes);
-  std::array<std::uint64_t, 3> words{};
+}
+
+std::vector<std::uint64_t> GuardedXmlParser::readWords(std::size_t count) {
   static_assert(std::endian::native == std::endian::little);
-  for (std::size_t w = 0; w < words.size(); ++w) std::memcpy(&words[w], &bytes[w * wordBytes], wordBytes);
-  const auto [blocks, size, last] = words;
+  const std::size_t wordBytes = static_cast<std::size_t>(HeaderType) / 8;
+  std::vector<unsigned char> bytes(count * wordBytes);
+  if (DataStream->Read(bytes.data(), bytes.size()) != bytes.size()) return {};
+  PerformByteSwap(bytes.data(), count, wordBytes);
+  std::vector<std::uint64_t> words(count);
+  for (std::size_t w = 0; w < count; ++w) std::memcpy(&words[w], &bytes[w * wordBytes], wordBytes);
+  return words;
+}
+
+bool GuardedXmlParser::sizesAreSound() {
+  const std::vector<std::uint64_t> sizes =
+      readWords(3);  // blocks, bytes of each, bytes of a shorter last one
+  if (sizes.empty()) return false;
+  const auto blocks = static_cast<double>(sizes[0]), size = static_cast<double>(sizes[1]),
+             last = static_cast<double>(sizes[2]);
   if (blocks == 0) return true;
-  const double sizes = static_cast<double>(blocks) * static_cast<double>(wordBytes);
-  const double content = static_cast<double>(blocks - 1) * static_cast<double>(size) +
-                         static_cast<double>(last > 0 ? last : size);
-  return size > 0 && last <= size && sizes <= fileBytes_ && content <= kBestCompression * fileBytes_;
+  const double content = (blocks - 1) * size + (last > 0 ? last : size);
+  if (size == 0 || last > size || blocks > fileBytes_ || content > kBestCompression * fileBytes_)
+    return false;
+  const std::vector<std::uint64_t> packed = readWords(sizes[0]);
+  return !packed.empty() && std::ranges::all_of(packed, [this](std::uint64_t bytes) {
+    return static_cast<double>(bytes) <= fileBytes_;
+  });
+}
+
+bool GuardedXmlParser::blocksAreSound(vtkXMLDataElement* array) {
+  const char* format = array->GetAttribute("format");
+  if (Compressor == nullptr || format == nullptr || std::string_view(format) == "ascii") return true;
+  goToData(array);
+  DataStream->StartReading();
+  const bool sound = sizesAreSound();
+  DataStream->EndReading();
+  return sound;
 }
 
 }  // namespace sinew

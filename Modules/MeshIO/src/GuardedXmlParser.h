@@ -2,7 +2,9 @@
 
 #include <vtkXMLDataParser.h>
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace sinew {
 
@@ -32,6 +34,12 @@ class GuardedXmlParser : public vtkXMLDataParser {
  private:
   /// Adds up an attribute `NumberOf...`.
   void notePromise(const std::string& attribute, const char* value);
+  /// Sets DataStream to where an array's bytes begin.
+  void goToData(vtkXMLDataElement* array);
+  /// The next words of a header; none when it ends.
+  std::vector<std::uint64_t> readWords(std::size_t count);
+  /// Reads the header of a compressed array.
+  bool sizesAreSound();
 
   double fileBytes_ = 0;
   double promised_ = 0;  ///< tuples, points and cells
