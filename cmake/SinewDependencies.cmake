@@ -18,19 +18,20 @@ find_package(OpenVDB 10 REQUIRED)
 find_package(ITK 5.2 REQUIRED COMPONENTS ITKCommon ITKIOImageBase ITKIONRRD ITKIOMeta ITKIONIFTI)
 unset(CMAKE_MESSAGE_LOG_LEVEL)
 find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel CommonMisc IOLegacy IOXML pugixml utf8)
-if(NOT TARGET VTKIOExodus::VTKIOExodus)  # VTK's own target searches for HDF5 by a C compiler, which a consumer need not have
-  find_library(VTK_IOEXODUS_LIBRARY vtkIOExodus-${VTK_MAJOR_VERSION}.${VTK_MINOR_VERSION} REQUIRED)
-  mark_as_advanced(VTK_IOEXODUS_LIBRARY)
-  add_library(VTKIOExodus::VTKIOExodus UNKNOWN IMPORTED)
-  set_target_properties(VTKIOExodus::VTKIOExodus PROPERTIES
-    IMPORTED_LOCATION "${VTK_IOEXODUS_LIBRARY}" INTERFACE_LINK_LIBRARIES "VTK::CommonExecutionModel")
-endif()
 
 if(CMAKE_FIND_PACKAGE_NAME STREQUAL "Sinew")
   return()  # a consumer: the rest is for building Sinew itself
 endif()
 
 find_package(CLI11 REQUIRED)
+
+if(SINEW_BUILD_TESTING)  # VTK's own target searches for HDF5
+  find_library(VTK_IOEXODUS_LIBRARY vtkIOExodus-${VTK_MAJOR_VERSION}.${VTK_MINOR_VERSION} REQUIRED)
+  mark_as_advanced(VTK_IOEXODUS_LIBRARY)
+  add_library(VTKIOExodus::VTKIOExodus UNKNOWN IMPORTED)
+  set_target_properties(VTKIOExodus::VTKIOExodus PROPERTIES
+    IMPORTED_LOCATION "${VTK_IOEXODUS_LIBRARY}" INTERFACE_LINK_LIBRARIES "VTK::CommonExecutionModel")
+endif()
 
 # ITK 5.2 has no usable namespaced targets, and carries an Eigen of its own.
 add_library(sinew_itk INTERFACE)

@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <clocale>
+#include <csignal>
 #include <locale>
+#include <sys/resource.h>
 
 namespace sinew {
 namespace {
@@ -71,6 +73,25 @@ TEST_P(SolverFormats, EdgesBendAsTheMeshSays) {
   const std::string straight = write(mesh, {.quadratic = true});
   mesh.curvedEdges = {{{0, 1}, {0.5, -0.1, 0}}};
   EXPECT_NE(write(mesh, {.quadratic = true}), straight);
+}
+
+TEST_P(SolverFormats, AFullDiskLeavesNothing) {
+  const TissueMesh mesh = test::twoHalves();
+  const std::size_t size = write(mesh).size();
+  std::filesystem::remove(folder_ / (std::string("a") + GetParam()));
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  for (const std::size_t room : {std::size_t{10}, size / 2, size - 1}) {
+    const rlimit full{.rlim_cur = room, .rlim_max = before.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &full);
+    const std::string message = test::messageOf<std::runtime_error>([&] { write(mesh); });
+    setrlimit(RLIMIT_FSIZE, &before);
+    EXPECT_NE(message.find("cannot be written (the file is incomplete; is the disk full?)"),
+              std::string::npos)
+        << message;
+    EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
+  }
 }
 
 TEST_P(SolverFormats, AFolderThatIsNotThereIsNamed) {
