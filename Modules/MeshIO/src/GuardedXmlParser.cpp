@@ -5,6 +5,7 @@
 #include <vtkXMLDataElement.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdlib>
 #include <cstring>
@@ -14,6 +15,8 @@
 namespace sinew {
 namespace {
 
+constexpr std::array<std::string_view, 12> kTypes{"Int8",  "UInt8",  "Int16",   "UInt16",  "Int32",  "UInt32",
+                                                  "Int64", "UInt64", "Float32", "Float64", "String", "Bit"};
 constexpr int kMostNested = 32;
 constexpr int kMostComponents = 64;
 /// A compressed file holds at most so many bytes, and so many values, in one of its own.
@@ -45,7 +48,13 @@ void GuardedXmlParser::StartElement(const char* name, const char** attributes) {
     refusal_ = "its elements are nested too deep";
     return;
   }
-  for (const char** at = attributes; *at != nullptr; at += 2) notePromise(at[0], at[1]);
+  const std::string_view element = name;
+  bool typed = element != "DataArray" && element != "Array";
+  for (const char** at = attributes; *at != nullptr; at += 2) {
+    notePromise(at[0], at[1]);
+    typed = typed || (std::string_view(at[0]) == "type" && std::ranges::find(kTypes, at[1]) != kTypes.end());
+  }
+  if (!typed) refusal_ = "an array has no known type";
   vtkXMLDataParser::StartElement(name, attributes);
 }
 

@@ -18,8 +18,8 @@ class GuardedXmlParser : public vtkXMLDataParser {
       GuardedXmlParser(const GuardedXmlParser&) = delete;
   GuardedXmlParser& operator=(const GuardedXmlParser&) = delete;
 
-  /// @return 0, with an error, also where elements are nested too deep, or promise more than the file can
-  /// hold.
+  /// @return 0, with an error, also where elements are nested too deep, arrays have no known type, or more is
+  /// promised than the file can hold
   int Parse() override;
 
   /// Do the sizes of an array's compressed blocks fit together, and in the file? True for arrays that are not

@@ -1,3 +1,4 @@
+#include "ClassicLocale.h"
 #include "LegacyVtkFile.h"
 #include "MeshFormatTable.h"
 #include "TissueGrid.h"
@@ -51,6 +52,7 @@ void writeLegacyVtk(const TissueMesh& mesh, const std::filesystem::path& file,
   const std::string title =
       saysSpace(options) ? std::string("Sinew SPACE=") + toString(options.space) : "Sinew";
   const auto grid = tissueGrid(mesh, options);
+  const ClassicLocale locale;
   const VtkErrorTrap trap;
   const auto writer = vtkSmartPointer<LegacyWriter>::New();
   writer->SetInputData(grid);

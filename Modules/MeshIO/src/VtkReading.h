@@ -1,5 +1,6 @@
 #pragma once
 
+#include "ClassicLocale.h"
 #include "FileFailure.h"
 #include "VtkErrorTrap.h"
 
@@ -15,6 +16,7 @@ namespace sinew {
 
 /// Runs a VTK reader. @param kind  what the file should be, for the message
 inline void update(vtkAlgorithm* reader, const std::filesystem::path& file, const char* kind) {
+  const ClassicLocale locale;
   const VtkErrorTrap trap;
   reader->Update();
   if (trap.failed()) fail(file, std::string("damaged or not ") + kind + " (" + trap.firstError() + ")");

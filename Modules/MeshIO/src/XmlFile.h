@@ -1,5 +1,6 @@
 #pragma once
 
+#include "ClassicLocale.h"
 #include "VtkErrorTrap.h"
 
 #include <vtkDataObject.h>
@@ -32,6 +33,7 @@ void writeXml(vtkDataObject* data, const std::filesystem::path& file) {
   /// FEBio Studio reads an array only when it is one block; the bound keeps the compressor's buffer small for
   /// huge meshes.
   constexpr std::size_t kBlockBytes = std::size_t{1} << 26;
+  const ClassicLocale locale;
   const VtkErrorTrap trap;
   const auto writer = vtkSmartPointer<Writer>::New();
   writer->SetInputData(data);

@@ -1,7 +1,7 @@
-#include "CommaLocale.h"
 #include "SampleSegmentation.h"
 #include "sinew/Segmentation/WriteLabelMap.h"
 #include "sinew/Segmentation/WriteLabelTable.h"
+#include "sinew/TestSupport/CommaLocale.h"
 
 #include <gtest/gtest.h>
 
