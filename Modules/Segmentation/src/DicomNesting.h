@@ -5,7 +5,8 @@
 namespace sinew::dicom {
 
 /// Refuses a DICOM file whose sequences lie in one another deeper than any real one's: DCMTK calls itself
-/// once per level, until the stack ends. Reads tags and lengths only. A deflated file is not looked into.
+/// once per level, until the stack ends. Reads tags and lengths only, of all uncompressed transfer syntaxes
+/// and of deflated files.
 /// @throws std::runtime_error naming the file
 void requireShallowNesting(const std::filesystem::path& file);
 

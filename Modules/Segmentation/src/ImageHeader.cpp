@@ -77,7 +77,8 @@ ImageHeader readImageHeader(const fs::path& file) {
 
 std::string readFront(const fs::path& file, std::size_t count) {
   std::string front(count, '\0');
-  front.resize(UnpackStream(file, 0, isGzip(file)).read(std::as_writable_bytes(std::span(front))));
+  front.resize(UnpackStream(file, 0, isGzip(file) ? Packing::Wrapped : Packing::None)
+                   .read(std::as_writable_bytes(std::span(front))));
   return front;
 }
 

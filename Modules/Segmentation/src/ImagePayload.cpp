@@ -72,7 +72,7 @@ std::vector<std::int32_t> readPayload(const fs::path& file, const ImageGeometry&
   const auto voxels = static_cast<std::size_t>(geometry.voxelCount());
   requireSize(file, voxels * valueBytes, payload);
   requirePlausibleSize(file, payload);
-  UnpackStream stream(payload.file, payload.offset, payload.compressed);
+  UnpackStream stream(payload.file, payload.offset, payload.compressed ? Packing::Wrapped : Packing::None);
   stream.skip(payload.skip);
 
   std::vector<std::int32_t> labels;

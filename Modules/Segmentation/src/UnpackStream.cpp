@@ -19,14 +19,17 @@ bool isGzip(const std::filesystem::path& file) {
   return stream.get() == kGzipMagic[0] && stream.get() == kGzipMagic[1];
 }
 
-UnpackStream::UnpackStream(const std::filesystem::path& file, std::uint64_t offset, bool compressed)
+UnpackStream::UnpackStream(const std::filesystem::path& file, std::uint64_t offset, Packing packing)
     : in_(file, std::ios::binary) {
   in_.seekg(static_cast<std::streamoff>(offset));
-  if (!compressed) return;
+  if (packing == Packing::None) return;
   packed_.resize(kBuffer);
   stream_ = std::make_unique<inflate_state>();
   isal_inflate_init(stream_.get());
-  wrapper_ = refill() && packed_.front() == kGzipMagic[0] ? ISAL_GZIP : ISAL_ZLIB;
+  const bool filled = refill();
+  wrapper_ = packing == Packing::Raw                      ? ISAL_DEFLATE
+             : filled && packed_.front() == kGzipMagic[0] ? ISAL_GZIP
+                                                          : ISAL_ZLIB;
   stream_->crc_flag = wrapper_;
 }
 
@@ -45,6 +48,10 @@ std::size_t UnpackStream::read(std::span<std::byte> out) {
 }
 
 void UnpackStream::skip(std::uint64_t bytes) {
+  if (!stream_) {
+    in_.seekg(static_cast<std::streamoff>(bytes), std::ios::cur);
+    return;
+  }
   std::vector<std::byte> scratch(std::min<std::uint64_t>(bytes, kChunk));
   while (bytes > 0) {
     const std::size_t count = read(std::span(scratch).first(std::min<std::uint64_t>(bytes, scratch.size())));

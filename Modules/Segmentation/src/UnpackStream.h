@@ -16,11 +16,15 @@ namespace sinew {
 /// Whether a file begins as gzip files do.
 bool isGzip(const std::filesystem::path& file);
 
-/// The bytes of a file from an offset on, unpacked on the way when they are compressed (zlib or gzip; several
-/// gzip members may follow each other).
+/// How bytes are stored: as they are, with zlib's or gzip's wrapper (told by the content), or deflated
+/// without one.
+enum class Packing { None, Wrapped, Raw };
+
+/// The bytes of a file from an offset on, unpacked on the way when they are packed; several gzip members may
+/// follow each other.
 class UnpackStream {
  public:
-  UnpackStream(const std::filesystem::path& file, std::uint64_t offset, bool compressed);
+  UnpackStream(const std::filesystem::path& file, std::uint64_t offset, Packing packing);
   ~UnpackStream();
   UnpackStream(const UnpackStream&) = delete;
   UnpackStream& operator=(const UnpackStream&) = delete;

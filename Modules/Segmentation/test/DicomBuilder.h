@@ -42,6 +42,28 @@ struct DicomSpec {
   E_TransferSyntax syntax = EXS_LittleEndianExplicit;
 };
 
+/// Masks of a frame: kB lies apart from kA, kC overlaps both.
+inline const std::vector<int> kA{0, 1, 1, 0, 1, 1, 0, 0, 0, 0, 0, 1};
+inline const std::vector<int> kB{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0};
+inline const std::vector<int> kC{0, 0, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0};
+
+/// A mask painted with a label.
+inline std::vector<std::int32_t> times(const std::vector<int>& mask, int label) {
+  std::vector<std::int32_t> result;
+  for (const int value : mask) result.push_back(value * label);
+  return result;
+}
+
+inline DicomSpec oneFrame() { return {.frames = {{.segment = 1, .slice = 0, .pixels = kA}}}; }
+
+/// Two frames of a label map: kA with label 7 ("fat"), and kB with 1.
+inline DicomSpec labelMap(int bits) {
+  DicomSpec spec{.sopClass = "1.2.840.10008.5.1.4.1.1.66.7", .type = "LABELMAP", .bits = bits};
+  spec.segments = {{.number = 0, .label = "background"}, {.number = 1}, {.number = 7, .label = "fat"}};
+  spec.frames = {{0, 0, times(kA, 7)}, {0, 1, times(kB, 1)}};
+  return spec;
+}
+
 inline std::string decimals(std::initializer_list<double> values) {
   std::string text;
   for (const double value : values) {

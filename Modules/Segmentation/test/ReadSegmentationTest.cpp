@@ -244,33 +244,6 @@ TEST(ReadSegmentation, SlicerSegmentsEqualTheHeader) {
   }
 }
 
-TEST(ReadSegmentation, SlicerSegmentsInRas) {
-  const Segmentation s =
-      readBytes("a.seg.nrrd", slicerFile(segment(0, "one", 1, 0), nrrdIn("RAS", "(1,0,0) (0,1,0) (0,0,2)")));
-  EXPECT_EQ(s.tissues[0].name, "one");
-  EXPECT_EQ(s.geometry.origin, Eigen::Vector3d(70.5, -20, 30));
-  EXPECT_EQ(s.geometry.direction.col(0), Eigen::Vector3d(-1, 0, 0));
-}
-
-TEST(ReadSegmentation, ReferenceExtentOffsetMovesNothing) {
-  expectGeometryOfItk("a.seg.nrrd", slicerFile(segment(0, "one", 1, 0)));
-}
-
-TEST(ReadSegmentation, MissingSlicerKeysHaveSlicersDefaults) {
-  const std::string bytes =
-      slicerFile("Segment0_ID:=only\nSegment2_ID:=behind a gap\nSegment2_LabelValue:=7\n");
-  const Segmentation s = readBytes("a.nrrd", bytes);
-  ASSERT_EQ(s.tissues.size(), 3u);
-  EXPECT_EQ(s.tissues[0].name, "only");
-  EXPECT_EQ(s.tissues[0].label, 1);
-  EXPECT_EQ(s.tissues[0].layer, 0);
-  EXPECT_EQ(s.tissues[0].color, (std::array<double, 3>{0.5, 0.5, 0.5}));
-  EXPECT_EQ(s.tissues[2].name, "Segment_7");
-  EXPECT_EQ(
-      readBytes("b.nrrd", slicerFile("Segment0_ID:=x\nSegment0_DefaultColor:=0 1 0\n")).tissues[0].color,
-      (std::array<double, 3>{0, 1, 0}));
-}
-
 /// Layer l of voxel v: l + 1 where v is divisible by l + 1, except that layers 0 and 1 both use the value 1.
 std::int16_t layeredValue(int layer, int voxel) {
   if (voxel % (layer + 1) != 0) return 0;
