@@ -1,33 +1,15 @@
 #include "CommandLine.h"
 
+#include "Process.h"
+#include "TextTable.h"
 #include "sinew/Pipeline/OutputFile.h"
 #include "sinew/Pipeline/Report.h"
 
 #include <tbb/global_control.h>
-#include <tbb/info.h>
 
-#include <algorithm>
 #include <iostream>
 
 namespace sinew {
-namespace {
-
-/// An option whose text `parse` turns into a value, or refuses by std::invalid_argument.
-template <typename Value>
-CLI::Option* addParsed(CLI::App& app, const std::string& flags, Value& value,
-                       Value (*parse)(std::string_view), const std::string& description) {
-  const auto read = [&value, parse](const std::string& text) {
-    try {
-      value = parse(text);
-    } catch (const std::invalid_argument& error) {
-      throw CLI::ValidationError(error.what());
-    }
-  };
-  return app.add_option_function<std::string>(flags, read, description);
-}
-
-}  // namespace
-
 CommandLine::CommandLine(const std::string& command, const std::string& description)
     : app(description, "sinew " + command) {
   app.set_help_flag();  // it comes back with the common options, below the command's own
@@ -52,30 +34,6 @@ void CommandLine::addCommonOptions() {
   for (CLI::Option* option : options) option->group("Common options");
 }
 
-CLI::Validator CommandLine::atLeast(double least) {
-  const auto check = [least](std::string& text) -> std::string {
-    double value = 0;
-    if (CLI::detail::lexical_cast(text, value) && value >= least) return {};
-    return "'" + text + "' is not a number from " + CLI::detail::to_string(least) + " on";
-  };
-  return CLI::Validator(check, "");
-}
-
-CLI::Option* CommandLine::addLength(const std::string& flags, Length& length,
-                                    const std::string& description) {
-  return addParsed(app, flags, length, parseLength, description)
-      ->type_name("LENGTH")
-      ->default_str(toString(length));
-}
-
-CLI::Option* CommandLine::addSmoothing(const std::string& flags, Smoothing& smoothing) {
-  return addParsed(app, flags, smoothing, parseSmoothing,
-                   "none: keep the voxels' stairs; light: a Gauss of one voxel; a time (2mm2) or a length "
-                   "(1mm, 2vox): motion by mean curvature too")
-      ->type_name("HOW")
-      ->default_str(toString(smoothing));
-}
-
 int CommandLine::run(const std::vector<std::string>& arguments, const std::function<int()>& action) {
   addCommonOptions();
   try {
@@ -87,15 +45,18 @@ int CommandLine::run(const std::vector<std::string>& arguments, const std::funct
                            CLI::ExitCodes::ConfigError);
   }
   if (!common.json.empty() && !common.jsonOnStdout()) checkOutputFile(common.json, common.force);
-  const int threads = common.threads > 0 ? common.threads : tbb::info::default_concurrency();
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                  static_cast<std::size_t>(threads));
+  const ThreadLimit limit(common.threads);
   return action();
 }
 
 std::ostream* CommandLine::tables() const {
   if (!common.jsonOnStdout()) return &std::cout;
   return common.quiet ? nullptr : &std::cerr;
+}
+
+void CommandLine::printWarnings(const Segmentation& segmentation) const {
+  if (common.quiet) return;
+  for (const std::string& warning : segmentation.warnings) std::cerr << printable(warning) << std::endl;
 }
 
 void CommandLine::writeJson(const std::string& document) const {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "sinew/Pipeline/Length.h"
-#include "sinew/Pipeline/Smoothing.h"
+#include "OptionParser.h"
+#include "sinew/Segmentation/Segmentation.h"
 
 #include <CLI/CLI.hpp>
 
@@ -31,14 +31,6 @@ class CommandLine {
   CLI::App app;
   CommonOptions common;
 
-  /// A length bound to an option struct; its value is the default that the help shows.
-  CLI::Option* addLength(const std::string& flags, Length& length, const std::string& description);
-
-  CLI::Option* addSmoothing(const std::string& flags, Smoothing& smoothing);
-
-  /// Takes numbers from `least` on.
-  static CLI::Validator atLeast(double least);
-
   /// Adds the common options, parses, checks the output of --json, sets the number of threads, and calls the
   /// action; or prints help or version.
   /// @throws CLI::ParseError on wrong usage, and what `action` throws
@@ -47,6 +39,8 @@ class CommandLine {
   /// Where tables for people go: standard output, or standard error when that belongs to the JSON; nullptr
   /// for nowhere.
   std::ostream* tables() const;
+  /// What reading an input had to change, on standard error unless --quiet.
+  void printWarnings(const Segmentation& segmentation) const;
   /// Writes the machine-readable result if the user wants it.
   void writeJson(const std::string& document) const;
 

@@ -1,27 +1,20 @@
 #include "CommandLine.h"
+#include "FileKind.h"
+#include "MeshInfo.h"
+#include "MeshSettings.h"
 #include "TextTable.h"
 #include "commands.h"
 #include "sinew/Pipeline/Report.h"
 #include "sinew/Segmentation/LabelComponents.h"
 #include "sinew/Segmentation/ReadSegmentation.h"
 
-#include <cmath>
-#include <cstdio>
+#include <iostream>
 
 namespace sinew {
 namespace {
 
 std::string triple(const Eigen::Vector3d& v, int decimals, const char* separator) {
   return fixed(v.x(), decimals) + separator + fixed(v.y(), decimals) + separator + fixed(v.z(), decimals);
-}
-
-std::string colourCode(const std::array<double, 3>& colour) {
-  char text[8];
-  const auto byte = [](double part) {
-    return static_cast<unsigned>(std::lround(255 * std::clamp(part, 0., 1.)));
-  };
-  std::snprintf(text, sizeof text, "#%02x%02x%02x", byte(colour[0]), byte(colour[1]), byte(colour[2]));
-  return text;
 }
 
 void printGeometry(std::ostream& stream, const Segmentation& segmentation) {
@@ -59,8 +52,17 @@ void printTissues(std::ostream& stream, const Segmentation& segmentation,
     stream << "without a voxel: " << printable(tissue.name) << '\n';
 }
 
+int infoOnMesh(const CommandLine& line, const std::string& input) {
+  const MeshInfo mesh = describeMesh(input);
+  line.writeJson(toJson(mesh));
+  if (!line.common.jsonOnStdout()) print(std::cout, mesh);
+  return 0;
+}
+
 int info(const CommandLine& line, const std::string& input, const ReadSegmentationOptions& options) {
+  if (fileKind(input) == FileKind::Mesh) return infoOnMesh(line, input);
   const Segmentation segmentation = readSegmentation(input, options);
+  line.printWarnings(segmentation);
   std::vector<std::int64_t> pieces;
   for (const Tissue& tissue : segmentation.tissues)
     pieces.push_back(static_cast<std::int64_t>(labelComponents(segmentation, tissue).voxels.size()));
@@ -75,12 +77,12 @@ int info(const CommandLine& line, const std::string& input, const ReadSegmentati
 }  // namespace
 
 int runInfo(const std::vector<std::string>& arguments) {
-  CommandLine line("info", "Shows geometry and tissues of a segmentation.");
+  CommandLine line("info", "Shows what is in a segmentation or a mesh: geometry and tissues.");
   std::string input;
   ReadSegmentationOptions options;
-  line.app.add_option("INPUT", input, "segmentation: .nrrd, .seg.nrrd, .nhdr, .nii, .nii.gz, .mha, .mhd")
-      ->required();
-  line.app.add_option("--lut", options.lut, "colour table with the names of the labels")->type_name("FILE");
+  line.app.add_option("INPUT", input, "segmentation, DICOM SEG or mesh")->required();
+  addOption(line.app, lutOption(options));
+  addOption(line.app, fractionalOption(options));
   return line.run(arguments, [&] { return info(line, input, options); });
 }
 

@@ -1,5 +1,6 @@
 #include "BarChart.h"
 #include "CommandLine.h"
+#include "MeshSettings.h"
 #include "TextTable.h"
 #include "commands.h"
 #include "sinew/Pipeline/Report.h"
@@ -141,10 +142,9 @@ int runQuality(const std::vector<std::string>& arguments) {
                  "tissue of the reference; default: by file name, else by label")
       ->type_name("NAME|LABEL")
       ->needs(reference);
-  app.add_option("--lut", command.reading.lut, "colour table with the names of the labels")
-      ->type_name("FILE")
-      ->needs(reference);
-  line.addSmoothing("--smoothing", command.smoothing);
+  addOption(app, lutOption(command.reading))->needs(reference);
+  addOption(app, fractionalOption(command.reading))->needs(reference);
+  addOption(app, smoothingOption(command.smoothing));
   app.add_flag("--histogram", command.histogram,
                "show how dihedral angles and aspect ratios are spread; by default for a single mesh");
   app.footer(

@@ -1,16 +1,12 @@
 #include "RepairReport.h"
 
+#include "JsonReport.h"
 #include "TextTable.h"
-#include "sinew/Pipeline/Report.h"
-
-#include <nlohmann/json.hpp>
 
 #include <functional>
 
 namespace sinew {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json toObject(const std::optional<ShapeSummary>& summary) {
   if (!summary) return nullptr;
@@ -89,9 +85,12 @@ TextTable savedTable(const RepairResult& result, bool check) {
 }  // namespace
 
 std::string toJson(const RepairRun& run, const RepairResult& result) {
-  Json json{{"program", "sinew"},          {"version", version()}, {"input", run.input},
-            {"script", run.script},        {"output", run.output}, {"check", run.check},
-            {"total_seconds", run.seconds}};
+  Json json = programFields();
+  json.update({{"input", run.input},
+               {"script", run.script},
+               {"output", run.output},
+               {"check", run.check},
+               {"total_seconds", run.seconds}});
   json["operations"] = Json::array();
   for (const RepairOperation& operation : result.operations)
     json["operations"].push_back(toObject(operation));
@@ -99,7 +98,7 @@ std::string toJson(const RepairRun& run, const RepairResult& result) {
   for (const SavedTissue& saved : result.saved) json["saved"].push_back(toObject(saved, run.check));
   json["removed"] = result.removed;
   json["messages"] = result.messages;
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return document(json);
 }
 
 void printResult(std::ostream& stream, const RepairRun& run, const RepairResult& result) {

@@ -21,6 +21,7 @@ struct Command {
 constexpr std::array kCommands{
     Command{"mesh", "turn every tissue of a segmentation into a tetrahedral mesh", runMesh},
     Command{"repair", "change the tissues of a segmentation by a script", runRepair},
+    Command{"convert", "write a segmentation, or meshes as one, in another format", runConvert},
     Command{"info", "show geometry and tissues of a segmentation", runInfo},
     Command{"quality", "measure tetrahedral meshes", runQuality},
     Command{"phantom", "write an analytic labelled volume", runPhantom},

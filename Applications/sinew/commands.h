@@ -13,6 +13,7 @@ int runCommand(const std::vector<std::string>& arguments);
 // One sub-command each, in the file of its name; `arguments` are those after its name.
 int runMesh(const std::vector<std::string>& arguments);
 int runRepair(const std::vector<std::string>& arguments);
+int runConvert(const std::vector<std::string>& arguments);
 int runInfo(const std::vector<std::string>& arguments);
 int runQuality(const std::vector<std::string>& arguments);
 int runPhantom(const std::vector<std::string>& arguments);

@@ -10,6 +10,18 @@ file(REMOVE_RECURSE ${SCRATCH_DIR})
 file(MAKE_DIRECTORY ${SCRATCH_DIR}/meshes)
 run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefix} --config ${CONFIG})
 
+# C6: Slicer tries every program of the modules' folder, so nothing else may be there, and they are nowhere else.
+file(GLOB_RECURSE modules RELATIVE ${prefix} ${prefix}/*Sinew*er ${prefix}/*SinewRepair)
+file(GLOB_RECURSE beside RELATIVE ${prefix} ${prefix}/*/cli-modules/*)
+list(SORT modules)
+list(SORT beside)
+if(NOT modules STREQUAL beside OR NOT modules MATCHES "^[^;]*sinew/cli-modules/SinewMesher;[^;]*sinew/cli-modules/SinewRepair$")
+  message(FATAL_ERROR "The Slicer modules do not stand alone in their folder: ${modules} and ${beside}")
+endif()
+foreach(module IN LISTS modules)
+  run(${prefix}/${module} --xml)
+endforeach()
+
 # What is installed must not point back to where it was built.
 file(GLOB_RECURSE installed ${prefix}/*.cmake)
 if(NOT installed)

@@ -31,7 +31,7 @@ TEST(MeshCommand, TheSphereHasItsVolumeAndGenus) {
       run({"mesh", sphere.string(), "-o", (folder / "out").string(), "--edge-length", "3vox"});
   ASSERT_EQ(result.exitCode, 0) << result.err;
   EXPECT_EQ(result.err, "") << "talk without a terminal";
-  EXPECT_EQ(namesIn(folder / "out"), (std::vector<std::string>{"report.json", "sphere.vtu"}));
+  EXPECT_EQ(namesIn(folder / "out"), (std::vector<std::string>{"report.json", "scene.mrml", "sphere.vtu"}));
   const Json report = reportIn(folder);
   EXPECT_NEAR(report["options"]["edge_length_mm"], 3 * std::cbrt(2.), 1e-12);
   const Json& tissue = report["tissues"][0];
@@ -219,7 +219,7 @@ TEST(MeshCommand, ATissueTooSmallForTheLatticeIsLostByName) {
   const ProgramResult result =
       run({"mesh", file.string(), "-o", (folder / "out").string(), "--edge-length", "3", "--curvature", "0"});
   EXPECT_EQ(result.exitCode, 0) << result.err;
-  EXPECT_EQ(namesIn(folder / "out"), (std::vector<std::string>{"cube.vtu", "report.json"}));
+  EXPECT_EQ(namesIn(folder / "out"), (std::vector<std::string>{"cube.vtu", "report.json", "scene.mrml"}));
   const Json lost = reportIn(folder)["tissues"][1];
   EXPECT_EQ(lost["status"], "lost");
   EXPECT_EQ(lost["file"], "");
@@ -243,7 +243,8 @@ TEST(MeshCommand, HostileNamesStayInTheFolder) {
   const ProgramResult result =
       run({"mesh", file.string(), "-o", (folder / "out").string(), "--tissue", "1", "--edge-length", "3"});
   ASSERT_EQ(result.exitCode, 0) << result.err;
-  EXPECT_EQ(namesIn(folder / "out"), (std::vector<std::string>{"_._.._évil_[2J_name.vtu", "report.json"}));
+  EXPECT_EQ(namesIn(folder / "out"),
+            (std::vector<std::string>{"_._.._évil_[2J_name.vtu", "report.json", "scene.mrml"}));
   EXPECT_EQ(result.out.find('\033'), std::string::npos) << "a name controls the terminal";
 }
 

@@ -23,13 +23,16 @@ void redirect(const fs::path& file, int descriptor) {
 
 }  // namespace
 
-Program::Program(const std::vector<std::string>& arguments) {
-  std::vector<std::string> words{SINEW_PROGRAM};
+Program::Program(const std::vector<std::string>& arguments) : Program(SINEW_PROGRAM, arguments) {}
+
+Program::Program(const fs::path& program, const std::vector<std::string>& arguments) {
+  std::vector<std::string> words{program.string()};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   writeBytes(folder_ / "err", "");
+  writeBytes(folder_ / "out", "");
   process_ = fork();
   if (process_ < 0) throw std::runtime_error("cannot fork");
   if (process_ == 0) {
@@ -56,6 +59,8 @@ bool Program::waitFor(const std::string& text) {
   }
   return true;
 }
+
+std::string Program::output() const { return readBytes(folder_ / "out"); }
 
 void Program::signal(int number) const { kill(process_, number); }
 

@@ -15,10 +15,12 @@ struct ProgramResult {
   std::string out, err;
 };
 
-/// A running `sinew`.
+/// A running program.
 class Program {
  public:
+  /// `sinew`.
   explicit Program(const std::vector<std::string>& arguments);
+  Program(const std::filesystem::path& program, const std::vector<std::string>& arguments);
   /// Waits for its end, if nobody has.
   ~Program();
   Program(const Program&) = delete;
@@ -26,12 +28,13 @@ class Program {
 
   /// Waits until its standard error holds a text. False when it ends without.
   bool waitFor(const std::string& text);
+  /// What is on its standard output so far.
+  std::string output() const;
+  bool ended();
   void signal(int number) const;
   ProgramResult wait();
 
  private:
-  bool ended();
-
   TempFolder folder_;  ///< of the files that take its output
   pid_t process_;
   bool reaped_ = false;

@@ -114,4 +114,10 @@ std::vector<std::string> tissueFileStems(const std::vector<Tissue>& tissues) {
   return stems;
 }
 
+std::string freeFileStem(std::string wanted, const std::vector<std::string>& stems) {
+  const auto taken = [&](const std::string& stem) { return lowerCase(stem) == lowerCase(wanted); };
+  while (std::any_of(stems.begin(), stems.end(), taken)) wanted += "_";
+  return wanted;
+}
+
 }  // namespace sinew

@@ -4,6 +4,7 @@
 #include "EdgeLengthSearch.h"
 #include "LevelSetSurface.h"
 #include "MeasureFidelity.h"
+#include "NearestSurfacePoint.h"
 #include "OffsetSurface.h"
 #include "QualityArrays.h"
 #include "TissueLevelSet.h"
@@ -78,27 +79,37 @@ class TissueRun {
         availableMemory_(availableMemory),
         progress_(progress) {
     report_.name = tissue_.name;
+    report_.id = tissue_.id;
     report_.label = tissue_.label;
     report_.layer = tissue_.layer;
+    report_.color = tissue_.color;
     report_.edgeLength = job.plan.sizes.edge;
   }
 
   void run(const std::filesystem::path& folder) {
-    TetMesh mesh = generate();
-    if (mesh.tets.empty()) return lose();
-    measure(mesh);
+    TissueMesh made;
+    made.mesh = generate();
+    if (made.mesh.tets.empty()) return lose();
+    measure(made.mesh);
     const std::string wrong = unsoundness(report_.quality, report_.conditions);
     if (!wrong.empty()) throw std::runtime_error("the mesh is unsound and was not written: " + wrong);
     advance("writing", kAfterMeasure);
-    OutputFile output(folder / job_.file);
-    MeshArrays arrays = options_.withQuality ? qualityArrays(mesh, *surface_, frame_) : MeshArrays{};
-    writeMesh({std::move(mesh), {{tissue_.label, tissue_.name, tissue_.color}}, std::move(arrays)},
-              output.temporary());
-    output.commit();
-    lap("writing");
-    report_.file = job_.file;
+    made.regions = {{tissue_.label, tissue_.name, tissue_.color}};
+    if (options_.withQuality) made.arrays = qualityArrays(made.mesh, *surface_, frame_);
+    if (options_.writing.quadratic) made.curvedEdges = curvedEdges(made.mesh);
+    surface_.reset();
+    if (!job_.file.empty()) write(made, folder / job_.file);
+    if (job_.kept != nullptr) *job_.kept = std::move(made);
     report_.status = TissueStatus::Meshed;
     report_.message = warning();
+  }
+
+  void write(const TissueMesh& mesh, const std::filesystem::path& file) {
+    OutputFile output(file);
+    writeMesh(mesh, output.temporary(), options_.writing);
+    output.commit();
+    report_.file = job_.file;
+    lap("writing");
   }
 
   TissueReport& report() { return report_; }
@@ -309,8 +320,19 @@ class TissueRun {
         segmentation_, tissue_);
     report_.fidelity = fidelity.fidelity;
     report_.lost = fidelity.lost;
-    if (!options_.withQuality) surface_.reset();
     lap("measuring");
+  }
+
+  /// The edges of the boundary, bent to the level set.
+  std::vector<CurvedEdge> curvedEdges(const TetMesh& mesh) const {
+    const Eigen::Isometry3d toSurface = frame_.inverse();
+    return curveBoundary(mesh,
+                         [&](const Eigen::Vector3d& x) -> std::optional<Eigen::Vector3d> {
+                           const auto point = nearestSurfacePoint(*surface_, surfaceOffset_, toSurface * x);
+                           if (!point) return std::nullopt;
+                           return frame_ * *point;
+                         })
+        .edges;
   }
 
   void compareTopology(const TetMesh& mesh) {
@@ -407,7 +429,7 @@ TissueReport meshOneTissue(const Segmentation& segmentation, const TissueJob& jo
   } catch (const std::exception& error) {
     report.message = oneLine(error.what());
   }
-  if (report.file.empty()) {
+  if (report.file.empty() && !job.file.empty()) {
     std::error_code ignored;
     std::filesystem::remove(folder / job.file, ignored);
   }

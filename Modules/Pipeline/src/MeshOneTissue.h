@@ -10,10 +10,11 @@ namespace sinew {
 struct TissueJob {
   std::size_t slot = 0;  ///< place in the list of reports
   int tissue = 0;        ///< index into the segmentation's table
-  std::string file;      ///< name inside the output folder
+  std::string file;      ///< name inside the output folder; empty: none is written
   TissueWish wish;
   TissuePlan plan;
-  bool searchSize = false;  ///< the plan is only where the search for the wanted number of tets begins
+  TissueMesh* kept = nullptr;  ///< receives the mesh that was written, if not null
+  bool searchSize = false;     ///< the plan is only where the search for the wanted number of tets begins
   TissueCost cost;
 };
 

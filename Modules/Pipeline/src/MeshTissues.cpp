@@ -4,6 +4,7 @@
 #include "MeshOneTissue.h"
 #include "ProgressSum.h"
 #include "TissueCost.h"
+#include "sinew/MeshIO/CombineMeshes.h"
 #include "sinew/Pipeline/FileNames.h"
 #include "sinew/Pipeline/Memory.h"
 #include "sinew/Segmentation/SelectTissues.h"
@@ -105,7 +106,7 @@ TissueJob makeJob(const Segmentation& segmentation, int index, const TissueWish&
 }
 
 std::vector<TissueJob> jobsLargestFirst(const Segmentation& segmentation, const std::vector<int>& tissues,
-                                        const MeshTissuesOptions& options) {
+                                        bool withFiles, const MeshTissuesOptions& options) {
   checkOptions(options);
   const std::vector<TissueWish> wishes = resolveWishes(segmentation, options);
   const std::vector<std::string> stems = tissueFileStems(segmentation.tissues);
@@ -113,7 +114,7 @@ std::vector<TissueJob> jobsLargestFirst(const Segmentation& segmentation, const 
   tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t j) {
     jobs[j] = makeJob(segmentation, tissues[j], wishes[tissues[j]], options);
     jobs[j].slot = j;
-    jobs[j].file = stems[tissues[j]] + ".vtu";
+    if (withFiles) jobs[j].file = stems[tissues[j]] + options.extension;
   });
   // Largest need of memory first; the stable sort keeps ties in the order of the table.
   std::stable_sort(jobs.begin(), jobs.end(),
@@ -121,13 +122,30 @@ std::vector<TissueJob> jobsLargestFirst(const Segmentation& segmentation, const 
   return jobs;
 }
 
+/// One mesh of those that there are; says in the reports which label each has there.
+TissueMesh combine(std::vector<TissueMesh> meshes, std::vector<TissueReport>& reports) {
+  std::vector<TissueMesh> parts;
+  std::vector<TissueReport*> owners;
+  for (std::size_t n = 0; n < meshes.size(); ++n) {
+    if (meshes[n].mesh.tets.empty()) continue;
+    parts.push_back(std::move(meshes[n]));
+    owners.push_back(&reports[n]);
+  }
+  TissueMesh all = combineMeshes(std::move(parts));
+  for (std::size_t n = 0; n < owners.size(); ++n) owners[n]->combinedLabel = all.regions[n].label;
+  return all;
+}
+
 }  // namespace
 
 std::vector<TissueReport> meshTissues(const Segmentation& segmentation, const std::vector<int>& tissues,
                                       const std::filesystem::path& folder, const MeshTissuesOptions& options,
-                                      const TissueProgress& progress) {
+                                      const TissueProgress& progress, TissueMesh* combined) {
   if (tissues.empty()) return {};
-  const std::vector<TissueJob> jobs = jobsLargestFirst(segmentation, tissues, options);
+  std::vector<TissueJob> jobs = jobsLargestFirst(segmentation, tissues, !folder.empty(), options);
+  std::vector<TissueMesh> kept(combined != nullptr ? jobs.size() : 0);
+  if (combined != nullptr)
+    for (TissueJob& job : jobs) job.kept = &kept[job.slot];
   const double available = kUsableMemory * availableMemory();
   const int inFlight = tissuesInFlight(segmentation, jobs, available);
 
@@ -157,6 +175,7 @@ std::vector<TissueReport> meshTissues(const Segmentation& segmentation, const st
                          tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, nextJob) &
                              tbb::make_filter<std::size_t, void>(tbb::filter_mode::parallel, runJob));
   sum.rethrow();
+  if (combined != nullptr) *combined = combine(std::move(kept), reports);
   return reports;
 }
 

@@ -2,6 +2,7 @@
 
 #include "TopologyDifferences.h"
 #include "sinew/Pipeline/Memory.h"
+#include "sinew/Segmentation/TissueCentroid.h"
 
 #include <nlohmann/json.hpp>
 
@@ -100,9 +101,12 @@ Json toJsonObject(const TissueReport& report) {
   topology["level_set_components"] = report.levelSetComponents;
   topology["level_set_euler_characteristic"] = report.levelSetEuler;
   return {{"name", report.name},
+          {"id", report.id},
           {"label", report.label},
           {"layer", report.layer},
+          {"color", report.color},
           {"file", report.file},
+          {"combined_label", report.combinedLabel ? Json(*report.combinedLabel) : Json()},
           {"status", toString(report.status)},
           {"message", report.message},
           {"edge_length_mm", report.edgeLength},
@@ -142,7 +146,23 @@ Json toJsonObject(const MeshTissuesOptions& options, double voxel) {
           {"smoothings", smoothings},
           {"band_voxels", options.levelSet.bandVoxels},
           {"thick_slice_ratio", options.levelSet.thickSliceRatio},
-          {"grid_spacing_mm", options.levelSet.gridSpacing}};
+          {"grid_spacing_mm", options.levelSet.gridSpacing},
+          {"format", options.extension.substr(1)},
+          {"space", options.writing.space == Space::Ras ? "RAS" : "LPS"},
+          {"space_tag", options.writing.spaceTag},
+          {"units_per_mm", options.writing.perMm},
+          {"quadratic", options.writing.quadratic}};
+}
+
+Json toJsonObject(const VoxelBox& box) {
+  const auto corner = [](const Eigen::Vector3i& c) { return Json{c.x(), c.y(), c.z()}; };
+  return {{"lower", corner(box.lower)}, {"upper", corner(box.upper)}};
+}
+
+/// What the file says of a tissue.
+Json tissueFields(const Tissue& tissue) {
+  return {{"name", tissue.name},   {"id", tissue.id},       {"label", tissue.label}, {"layer", tissue.layer},
+          {"named", tissue.named}, {"color", tissue.color}, {"tags", tissue.tags},   {"keys", tissue.keys}};
 }
 
 std::string processorName() {
@@ -192,6 +212,8 @@ std::string toJson(const MeshingReport& report) {
   json["threads"] = report.threads;
   json["total_seconds"] = report.seconds;
   json["peak_memory_bytes"] = static_cast<std::int64_t>(report.peakMemory);
+  json["combined"] = report.combined;
+  json["scene"] = report.scene;
   json["tissues"] = Json::array();
   for (const TissueReport& tissue : report.tissues) json["tissues"].push_back(toJsonObject(tissue));
   return document(json);
@@ -234,17 +256,21 @@ std::string toJson(const Segmentation& segmentation, const std::vector<std::int6
   json["tissues"] = Json::array();
   for (std::size_t t = 0; t < segmentation.tissues.size(); ++t) {
     const Tissue& tissue = segmentation.tissues[t];
-    json["tissues"].push_back({{"label", tissue.label},
-                               {"layer", tissue.layer},
-                               {"name", tissue.name},
-                               {"named", tissue.named},
-                               {"color", tissue.color},
-                               {"voxels", tissue.voxels},
-                               {"volume_mm3", static_cast<double>(tissue.voxels) * geometry.voxelVolume()},
-                               {"pieces", pieces[t]}});
+    Json entry = tissueFields(tissue);
+    const auto [lower, upper] = tissueBounds(geometry, tissue);
+    entry.update({{"voxels", tissue.voxels},
+                  {"volume_mm3", static_cast<double>(tissue.voxels) * geometry.voxelVolume()},
+                  {"pieces", pieces[t]},
+                  {"box_voxels", toJsonObject(tissue.box)},
+                  {"box_mm", {{"lower", toArray(lower)}, {"upper", toArray(upper)}}},
+                  {"centroid_mm", toArray(tissueCentroid(segmentation, tissue))}});
+    json["tissues"].push_back(entry);
   }
   json["empty_tissues"] = Json::array();
-  for (const Tissue& tissue : segmentation.emptyTissues) json["empty_tissues"].push_back(tissue.name);
+  for (const Tissue& tissue : segmentation.emptyTissues)
+    json["empty_tissues"].push_back(tissueFields(tissue));
+  json["keys"] = segmentation.keys;
+  json["warnings"] = segmentation.warnings;
   return document(json);
 }
 

@@ -83,5 +83,10 @@ TEST(FileNames, LongNamesAreCutBetweenCharacters) {
   EXPECT_EQ(stem.size() % 2, 1u) << "half a character at the end";
 }
 
+TEST(FileNames, AFreeStemDiffersFromAllWithoutRegardToCase) {
+  EXPECT_EQ(freeFileStem("combined", {"femur"}), "combined");
+  EXPECT_EQ(freeFileStem("combined", {"Combined", "combined_", "femur"}), "combined__");
+}
+
 }  // namespace
 }  // namespace sinew

@@ -48,14 +48,31 @@ MeshingReport exampleRun() {
 TEST(Report, HasTheFieldsThatReadersExpect) {
   const Json json = Json::parse(toJson(exampleRun()));
   EXPECT_EQ(keys(json),
-            (std::vector<std::string>{"input", "machine", "options", "peak_memory_bytes", "program",
-                                      "threads", "tissues", "total_seconds", "version"}));
+            (std::vector<std::string>{"combined", "input", "machine", "options", "peak_memory_bytes",
+                                      "program", "scene", "threads", "tissues", "total_seconds", "version"}));
   const Json& tissue = json["tissues"][0];
-  EXPECT_EQ(keys(tissue),
-            (std::vector<std::string>{"conditions", "edge_length_mm", "fidelity", "file", "label", "layer",
-                                      "lost", "message", "min_edge_length_mm", "name", "nodes", "quality",
-                                      "seconds", "status", "tets", "topology", "topology_difference_count",
-                                      "topology_differences", "worst"}));
+  EXPECT_EQ(keys(tissue), (std::vector<std::string>{"color",
+                                                    "combined_label",
+                                                    "conditions",
+                                                    "edge_length_mm",
+                                                    "fidelity",
+                                                    "file",
+                                                    "id",
+                                                    "label",
+                                                    "layer",
+                                                    "lost",
+                                                    "message",
+                                                    "min_edge_length_mm",
+                                                    "name",
+                                                    "nodes",
+                                                    "quality",
+                                                    "seconds",
+                                                    "status",
+                                                    "tets",
+                                                    "topology",
+                                                    "topology_difference_count",
+                                                    "topology_differences",
+                                                    "worst"}));
   EXPECT_EQ(keys(tissue["quality"]),
             (std::vector<std::string>{"inverted", "max_aspect_ratio", "max_dihedral_deg", "max_over_min_edge",
                                       "mean_aspect_ratio", "min_dihedral_deg"}));

@@ -1,8 +1,10 @@
 #include "ImageHeader.h"
 
+#include "DicomSegmentation.h"
 #include "ImageFormats.h"
 #include "Text.h"
 #include "UnpackStream.h"
+#include "sinew/Segmentation/ReadSegmentation.h"
 
 #include <Eigen/LU>
 
@@ -73,6 +75,12 @@ ImageHeader readImageHeader(const fs::path& file) {
       file,
       "is not an image that Sinew reads (NRRD, NIfTI-1, MetaImage or DICOM SEG); export the segmentation as "
       ".seg.nrrd, .nii.gz or .mha");
+}
+
+bool isImageFile(const fs::path& file) {
+  requireReadableFile(file);
+  const std::string front = readFront(file, kFront);
+  return front.starts_with("NRRD") || isNifti(front) || isMeta(front) || isDicom(file);
 }
 
 std::string readFront(const fs::path& file, std::size_t count) {

@@ -53,6 +53,23 @@ void expectReadsInEveryFormat(const std::string& nrrdType, const std::string& me
   expectSmallLabels(readBytes("gz.nii.gz", test::gzip(test::nifti(spec, raw))));
 }
 
+TEST(ReadSegmentation, AnImageIsToldByItsContentWhateverItsName) {
+  const test::TempFolder folder;
+  const std::string raw = test::bytesOf(test::smallLabelsAs<std::uint8_t>());
+  for (const std::string& bytes :
+       {test::nrrd({.type = "unsigned char"}, raw), test::meta({.type = "MET_UCHAR"}, raw),
+        test::nifti({.datatype = 2, .bitpix = 8}, raw),
+        test::gzip(test::nifti({.datatype = 2, .bitpix = 8}, raw)),
+        std::string(128, '\0') + "DICM" + std::string(100, '\0')}) {
+    test::writeBytes(folder / "image.vtu", bytes);
+    EXPECT_TRUE(isImageFile(folder / "image.vtu"));
+  }
+  for (const char* bytes : {"<VTKFile type=\"UnstructuredGrid\">", "$MeshFormat\n2.2 0 8\n", "# NRRD"}) {
+    test::writeBytes(folder / "mesh.nrrd", bytes);
+    EXPECT_FALSE(isImageFile(folder / "mesh.nrrd"));
+  }
+}
+
 TEST(ReadSegmentation, EveryPixelTypeOfEveryFormat) {
   expectReadsInEveryFormat<std::uint8_t>("unsigned char", "MET_UCHAR", 2);
   expectReadsInEveryFormat<std::int8_t>("signed char", "MET_CHAR", 256);

@@ -2,6 +2,7 @@
 
 #include "sinew/LevelSet/LevelSetFromLabels.h"
 #include "sinew/LevelSet/ShapeMeasures.h"
+#include "sinew/MeshIO/WriteMesh.h"
 #include "sinew/Mesher/GenerateTetMesh.h"
 #include "sinew/Mesher/MeshConditions.h"
 #include "sinew/Mesher/MeshQuality.h"
@@ -12,6 +13,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,6 +42,8 @@ struct MeshTissuesOptions {
   Smoothing smoothing;
   std::map<std::string, Smoothing> smoothings;  ///< tissue, by a wish as in selectTissues -> its own
   LevelSetFromLabelsOptions levelSet;           ///< labels to distance
+  std::string extension = ".vtu";               ///< of the files: one of meshFormats()
+  WriteMeshOptions writing;                     ///< space, unit and tags of the files
 };
 
 enum class TissueStatus { Meshed, Lost, Failed };
@@ -104,9 +108,13 @@ struct WorstElement {
 
 struct TissueReport {
   std::string name;
+  std::string id;
   std::int32_t label = 0;
   int layer = 0;
-  std::string file;  ///< name inside the output folder; empty when nothing was written
+  std::array<double, 3> color{};  ///< RGB in 0..1
+  std::optional<std::int32_t>
+      combinedLabel;  ///< in the combined mesh; another one where tissues share `label`
+  std::string file;   ///< name inside the output folder; empty when nothing was written
   TissueStatus status = TissueStatus::Failed;
   std::string message;                                  ///< one line: why it was lost or failed, or a warning
   double edgeLength = 0;                                ///< as taken for this tissue, mm
@@ -131,10 +139,12 @@ struct TissueReport {
 using TissueProgress = std::function<void(const std::string& tissue, const std::string& stage, double done)>;
 
 /// Meshes the tissues with the given indices into `segmentation.tissues`, one file each in `folder` (which
-/// exists), named by tissueFileStems with the ending `.vtu`; a file appears when it is complete, and an older
+/// exists; empty: no files), named by tissueFileStems; a file appears when it is complete, and an older
 /// one of that name goes when its tissue gives none. Tissues run in parallel, the largest first, as many at a
 /// time as threads and memory allow. A tissue that cannot be meshed, or whose mesh is unsound, is reported
 /// and not written; the others are. The files do not depend on the number of threads.
+/// @param combined  if not null, receives all meshes as one, see combineMeshes; they stay in memory until
+/// then
 /// @return one report per entry of `tissues`, in that order
 /// @throws std::invalid_argument before any computing on options out of range, a size for an unknown tissue,
 /// or edge
@@ -143,6 +153,6 @@ using TissueProgress = std::function<void(const std::string& tissue, const std::
 std::vector<TissueReport> meshTissues(const Segmentation& segmentation, const std::vector<int>& tissues,
                                       const std::filesystem::path& folder,
                                       const MeshTissuesOptions& options = {},
-                                      const TissueProgress& progress = {});
+                                      const TissueProgress& progress = {}, TissueMesh* combined = nullptr);
 
 }  // namespace sinew

@@ -20,8 +20,9 @@ struct MeshingReport {
   double voxel = 0;                 ///< what `vox` stands for, mm
   MeshTissuesOptions options;
   int threads = 0;
-  double seconds = 0;     ///< wall time of the run
-  double peakMemory = 0;  ///< bytes
+  double seconds = 0;           ///< wall time of the run
+  double peakMemory = 0;        ///< bytes
+  std::string combined, scene;  ///< names of the files of all tissues, inside the output folder; empty: none
   std::vector<TissueReport> tissues;
 };
 

@@ -27,4 +27,8 @@ struct ReadSegmentationOptions {
 ///         std::invalid_argument for a threshold outside (0, 1]
 Segmentation readSegmentation(const std::filesystem::path& file, const ReadSegmentationOptions& options = {});
 
+/// Whether the content begins like a file that readSegmentation takes, whatever its name.
+/// @throws std::runtime_error naming the file when it is missing, empty or unreadable
+bool isImageFile(const std::filesystem::path& file);
+
 }  // namespace sinew

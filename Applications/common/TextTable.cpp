@@ -1,6 +1,7 @@
 #include "TextTable.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
@@ -101,6 +102,15 @@ std::string grouped(std::int64_t value) {
   for (auto at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > first; at -= 3)
     digits.insert(static_cast<std::size_t>(at), 1, ',');
   return digits;
+}
+
+std::string colourCode(const std::array<double, 3>& colour) {
+  char text[8];
+  const auto byte = [](double part) {
+    return static_cast<unsigned>(std::lround(255 * std::clamp(part, 0., 1.)));
+  };
+  std::snprintf(text, sizeof text, "#%02x%02x%02x", byte(colour[0]), byte(colour[1]), byte(colour[2]));
+  return text;
 }
 
 }  // namespace sinew

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <ostream>
 #include <string>
@@ -44,5 +45,7 @@ std::string fixed(double value, int decimals);
 std::string signedFixed(double value, int decimals);
 /// With marks between thousands: 1,234,567.
 std::string grouped(std::int64_t value);
+/// RGB in 0..1 as `#rrggbb`.
+std::string colourCode(const std::array<double, 3>& colour);
 
 }  // namespace sinew

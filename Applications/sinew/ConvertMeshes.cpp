@@ -1,0 +1,111 @@
+#include "ConvertCommand.h"
+#include "JsonReport.h"
+#include "TextTable.h"
+#include "sinew/MeshIO/CombineMeshes.h"
+#include "sinew/MeshIO/MeshFormats.h"
+#include "sinew/MeshIO/ReadMesh.h"
+#include "sinew/Pipeline/OutputFile.h"
+
+#include <algorithm>
+#include <iostream>
+#include <map>
+
+namespace sinew {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// OUT, with the extension of the preset where it has none of a mesh.
+std::string outputOf(const ConvertCommand& command) {
+  if (findMeshFormat(fs::path(command.output).filename().string()) != nullptr) return command.output;
+  if (!command.files.preset.empty()) return command.output + std::string(standardExtension(command.files));
+  throw CLI::ValidationError("OUT",
+                             command.output + ": unknown kind of mesh file; known are " + meshExtensions());
+}
+
+std::string stemOf(const std::string& file) {
+  const std::string name = fs::path(file).filename().string();
+  const MeshFormat* format = findMeshFormat(name);
+  return name.substr(0, name.size() - format->extension.size());
+}
+
+/// Whether readMesh had to invent it.
+bool isNameless(const TissueRegion& region) {
+  return region.name.empty() || region.name == "Segment_" + std::to_string(region.label);
+}
+
+/// A mesh in which every label has a region with a name: that of its file where it had none.
+TissueMesh readNamed(const std::string& file) {
+  TissueMesh mesh = readMesh(file);
+  std::map<std::int32_t, std::int64_t> tets;
+  for (const std::int32_t label : mesh.mesh.labels) ++tets[label];
+  for (const auto& [label, count] : tets)
+    if (std::ranges::count(mesh.regions, label, &TissueRegion::label) == 0)
+      mesh.regions.push_back({label, {}});
+  for (TissueRegion& region : mesh.regions)
+    if (isNameless(region))
+      region.name =
+          mesh.regions.size() == 1 ? stemOf(file) : stemOf(file) + "_" + std::to_string(region.label);
+  return mesh;
+}
+
+/// @param quadratic  bend the edges of the boundary as the mesh does by itself
+TissueMesh readAll(const std::vector<std::string>& files, bool quadratic) {
+  std::vector<TissueMesh> meshes;
+  for (const std::string& file : files) meshes.push_back(readNamed(file));
+  TissueMesh all = combineMeshes(std::move(meshes));
+  if (quadratic) all.curvedEdges = curveBoundary(all.mesh).edges;
+  return all;
+}
+
+std::map<std::int32_t, std::int64_t> tetsByLabel(const TetMesh& mesh) {
+  std::map<std::int32_t, std::int64_t> tets;
+  for (const std::int32_t label : mesh.labels) ++tets[label];
+  return tets;
+}
+
+void print(std::ostream& stream, const std::string& output, const TissueMesh& mesh) {
+  TextTable table({{"label"}, {"tissue", Align::Left}, {"tets"}});
+  const std::map<std::int32_t, std::int64_t> tets = tetsByLabel(mesh.mesh);
+  for (const TissueRegion& region : mesh.regions)
+    table.add({std::to_string(region.label), printable(region.name), grouped(tets.at(region.label))});
+  table.print(stream);
+  stream << '\n' << output << ": " << grouped(std::ssize(mesh.mesh.tets)) << " tets\n";
+}
+
+Json toJson(const ConvertCommand& command, const std::string& output, const TissueMesh& mesh,
+            const WriteMeshOptions& options) {
+  Json json = programFields();
+  json["kind"] = "mesh";
+  json["inputs"] = command.inputs;
+  json["output"] = output;
+  json["unit"] = unitOf(options);
+  json["space"] = options.space == Space::Ras ? "RAS" : "LPS";
+  json["nodes"] = mesh.mesh.nodes.size();
+  json["tets"] = mesh.mesh.tets.size();
+  json["regions"] = Json::array();
+  const std::map<std::int32_t, std::int64_t> tets = tetsByLabel(mesh.mesh);
+  for (const TissueRegion& region : mesh.regions)
+    json["regions"].push_back({{"name", region.name},
+                               {"label", region.label},
+                               {"color", region.color},
+                               {"tets", tets.at(region.label)}});
+  return json;
+}
+
+}  // namespace
+
+std::string convertMeshes(const CommandLine& line, const ConvertCommand& command) {
+  const WriteMeshOptions options = resolved(command.files);
+  const std::string target = outputOf(command);
+  checkOutputFile(target, line.common.force);
+  const TissueMesh mesh = readAll(command.inputs, options.quadratic);
+  const OutputFolder folder(fs::absolute(target).parent_path());
+  OutputFile output(target);
+  writeMesh(mesh, output.temporary(), options);
+  output.commit();
+  if (std::ostream* stream = line.tables()) print(*stream, target, mesh);
+  return document(toJson(command, target, mesh, options));
+}
+
+}  // namespace sinew
