@@ -186,15 +186,15 @@ class GmshReader {
     for (std::size_t n = 0; n < place.size(); ++n) {
       if (place[n] < 0) continue;
       mesh.nodes[used] = fromFile(mesh.nodes[n], coordinates_);
+      if (!mesh.nodes[used].allFinite()) fail(file_, "has coordinates that its unit takes out of range");
       place[n] = used++;
     }
     mesh.nodes.resize(static_cast<std::size_t>(used));
     for (Tet& tet : mesh.tets)
       for (std::int32_t& node : tet) node = place[node];
     for (const std::int32_t label : std::set(mesh.labels.begin(), mesh.labels.end()))
-      mesh_.regions.push_back(names_.contains(label)
-                                  ? TissueRegion{label, names_[label]}
-                                  : unnamedRegion(label));
+      mesh_.regions.push_back(names_.contains(label) ? TissueRegion{label, names_[label]}
+                                                     : unnamedRegion(label));
     return std::move(mesh_);
   }
 

@@ -267,6 +267,22 @@ TEST_F(GmshFile, CutsAndChangedBytesAreReadOrRefused) {
     }
 }
 
+TEST_F(GmshFile, NotesThatAreNoneAreComments) {
+  const auto read = [&](const std::string& note) {
+    return readText(kByHand + "$Comments\n" + note + "\n$EndComments\n").mesh.nodes[0].x();
+  };
+  EXPECT_EQ(read("Sinew mesh, unit cm, space LPS"), 10);
+  EXPECT_EQ(read("some text\nSinew mesh, unit 0.5 to 1 mm, space RAS\r"), -2);
+  for (const char* note :
+       {"Sinew mesh, unit km, space LPS", "Sinew mesh, unit 0 to 1 mm, space LPS",
+        "Sinew mesh, unit -1 to 1 mm, space LPS", "Sinew mesh, unit nan to 1 mm, space LPS",
+        "Sinew mesh, unit mm, space XYZ", "Sinew mesh, unit , space LPS", "Sinew mesh"})
+    EXPECT_EQ(read(note), 1) << note;
+  std::string far = kByHand + "$Comments\nSinew mesh, unit 1e-300 to 1 mm, space LPS\n$EndComments\n";
+  far.replace(far.find("7 0 1 0"), 7, "7 0 1e9 0");
+  EXPECT_NE(messageOf(far).find("out of range"), std::string::npos);
+}
+
 TEST_F(GmshFile, BytesOfAnotherMachineAreNamed) {
   std::string bytes = binaryByHand();
   std::swap(bytes[bytes.find("2.2 1 8\n") + 8], bytes[bytes.find("2.2 1 8\n") + 11]);
