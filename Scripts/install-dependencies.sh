@@ -17,6 +17,7 @@ testing=(
   python3-nibabel  # NIfTI
   gmsh             # .msh
   calculix-ccx     # .inp: it solves
+  locales          # makes the language with a decimal comma that files must not depend on
 )
 case "${1-}" in
   "") ;;
