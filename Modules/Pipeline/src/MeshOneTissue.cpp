@@ -236,7 +236,9 @@ class TissueRun {
     report_.edgeLength = plan_.sizes.edge;
     report_.minEdgeLength = plan_.sizes.smallest;
     TetMesh mesh = std::move(attempt.mesh);
-    if (mesh.tets.empty()) return mesh;
+    // Edges that bend to the level set keep its volume better than straight ones that are moved outwards.
+    const bool bends = options_.writing.quadratic && !options_.preserveVolume;
+    if (mesh.tets.empty() || bends) return mesh;
 
     const double area = boundaryArea(mesh);
     const OffsetTrial plain{0, meshVolume(mesh)};

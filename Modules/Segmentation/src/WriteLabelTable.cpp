@@ -75,8 +75,7 @@ std::string underscored(const std::string& name) {
 /// Names that the rule loses are told in a comment, which readLabelTable understands.
 std::string ctbl(const LabelTable& table, const fs::path& file) {
   requireSlicerLabels(table, file);
-  std::string result = "# Color table file ";
-  result.append(oneLine(file.filename().string())).append("\n# ");
+  std::string result = "# Color table file\n# ";  // without its name, which may be a temporary one
   result.append(std::to_string(table.size())).append(" values\n");
   for (const auto& [label, entry] : table) {
     const std::string name = oneLine(entry.name), written = underscored(name);

@@ -291,7 +291,7 @@ TEST(WriteLabelTable, WhatOtherProgramsSeeOfIt) {
     return test::readBytes(folder / name);
   };
   EXPECT_EQ(written("a.ctbl"),
-            "# Color table file a.ctbl\n# 1 values\n# label 7 is named \"left_kidney, big\"\n"
+            "# Color table file\n# 1 values\n# label 7 is named \"left_kidney, big\"\n"
             "7 left_kidney,_big 255 0 51 255\n");
   EXPECT_EQ(written("a_dseg.tsv"), "index\tname\tcolor\n7\tleft_kidney, big\t#ff0033\n");
   const std::string csv = written("a.csv");
