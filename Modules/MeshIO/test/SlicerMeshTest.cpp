@@ -42,7 +42,8 @@ vtkSmartPointer<vtkUnstructuredGrid> readGrid(const fs::path& file) {
 
 /// The text that 3D Slicer takes for the space; empty when there is none.
 std::string spaceOf(const fs::path& file) {
-  auto* space = vtkStringArray::SafeDownCast(readGrid(file)->GetFieldData()->GetAbstractArray("SPACE"));
+  const auto grid = readGrid(file);
+  auto* space = vtkStringArray::SafeDownCast(grid->GetFieldData()->GetAbstractArray("SPACE"));
   return space != nullptr && space->GetNumberOfValues() == 1 ? space->GetValue(0) : "";
 }
 
