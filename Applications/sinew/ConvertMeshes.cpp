@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <iostream>
 #include <map>
+#include <optional>
 
 namespace sinew {
 namespace {
@@ -49,13 +50,10 @@ TissueMesh readNamed(const std::string& file) {
   return mesh;
 }
 
-/// @param quadratic  bend the edges of the boundary as the mesh does by itself
-TissueMesh readAll(const std::vector<std::string>& files, bool quadratic) {
+TissueMesh readAll(const std::vector<std::string>& files) {
   std::vector<TissueMesh> meshes;
   for (const std::string& file : files) meshes.push_back(readNamed(file));
-  TissueMesh all = combineMeshes(std::move(meshes));
-  if (quadratic) all.curvedEdges = curveBoundary(all.mesh).edges;
-  return all;
+  return combineMeshes(std::move(meshes));
 }
 
 std::map<std::int32_t, std::int64_t> tetsByLabel(const TetMesh& mesh) {
@@ -64,17 +62,23 @@ std::map<std::int32_t, std::int64_t> tetsByLabel(const TetMesh& mesh) {
   return tets;
 }
 
-void print(std::ostream& stream, const std::string& output, const TissueMesh& mesh) {
+void print(std::ostream& stream, const std::string& output, const TissueMesh& mesh,
+           const std::optional<CurvedBoundary>& curved) {
   TextTable table({{"label"}, {"tissue", Align::Left}, {"tets"}});
   const std::map<std::int32_t, std::int64_t> tets = tetsByLabel(mesh.mesh);
   for (const TissueRegion& region : mesh.regions)
     table.add({std::to_string(region.label), printable(region.name), grouped(tets.at(region.label))});
   table.print(stream);
   stream << '\n' << output << ": " << grouped(std::ssize(mesh.mesh.tets)) << " tets\n";
+  if (curved)
+    stream << grouped(std::ssize(curved->edges)) << " of " << grouped(curved->boundaryEdges)
+           << " edges of the boundary bend; so that tets stay valid, " << grouped(curved->pulledBackEdges)
+           << " of them less than the surface, and " << grouped(curved->straightenedEdges)
+           << " more not at all\n";
 }
 
 Json toJson(const ConvertCommand& command, const std::string& output, const TissueMesh& mesh,
-            const WriteMeshOptions& options) {
+            const WriteMeshOptions& options, const std::optional<CurvedBoundary>& curved) {
   Json json = programFields();
   json["kind"] = "mesh";
   json["inputs"] = command.inputs;
@@ -90,6 +94,12 @@ Json toJson(const ConvertCommand& command, const std::string& output, const Tiss
                                {"label", region.label},
                                {"color", region.color},
                                {"tets", tets.at(region.label)}});
+  if (curved)
+    json["curved_edges"] = {{"boundary_edges", curved->boundaryEdges},
+                            {"bent", curved->edges.size()},
+                            {"pulled_back", curved->pulledBackEdges},
+                            {"straightened", curved->straightenedEdges},
+                            {"at_creases", curved->awayEdges}};
   return json;
 }
 
@@ -99,13 +109,18 @@ std::string convertMeshes(const CommandLine& line, const ConvertCommand& command
   const WriteMeshOptions options = resolved(command.files);
   const std::string target = outputOf(command);
   checkOutputFile(target, line.common.force);
-  const TissueMesh mesh = readAll(command.inputs, options.quadratic);
+  TissueMesh mesh = readAll(command.inputs);
+  std::optional<CurvedBoundary> curved;
+  if (options.quadratic) {
+    curved = curveBoundary(mesh.mesh);
+    mesh.curvedEdges = curved->edges;
+  }
   const OutputFolder folder(fs::absolute(target).parent_path());
   OutputFile output(target);
   writeMesh(mesh, output.temporary(), options);
   output.commit();
-  if (std::ostream* stream = line.tables()) print(*stream, target, mesh);
-  return document(toJson(command, target, mesh, options));
+  if (std::ostream* stream = line.tables()) print(*stream, target, mesh, curved);
+  return document(toJson(command, target, mesh, options, curved));
 }
 
 }  // namespace sinew

@@ -24,6 +24,7 @@
 #include <new>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 namespace sinew {
 namespace {
@@ -325,16 +326,18 @@ class TissueRun {
     lap("measuring");
   }
 
-  /// The edges of the boundary, bent to the level set.
-  std::vector<CurvedEdge> curvedEdges(const TetMesh& mesh) const {
+  /// The edges of the boundary, bent to the level set; counted in the report.
+  std::vector<CurvedEdge> curvedEdges(const TetMesh& mesh) {
     const Eigen::Isometry3d toSurface = frame_.inverse();
-    return curveBoundary(mesh,
-                         [&](const Eigen::Vector3d& x) -> std::optional<Eigen::Vector3d> {
-                           const auto point = nearestSurfacePoint(*surface_, surfaceOffset_, toSurface * x);
-                           if (!point) return std::nullopt;
-                           return frame_ * *point;
-                         })
-        .edges;
+    CurvedBoundary curved =
+        curveBoundary(mesh, [&](const Eigen::Vector3d& x) -> std::optional<Eigen::Vector3d> {
+          const auto point = nearestSurfacePoint(*surface_, surfaceOffset_, toSurface * x);
+          if (!point) return std::nullopt;
+          return frame_ * *point;
+        });
+    std::vector<CurvedEdge> edges = std::exchange(curved.edges, {});
+    report_.curved = std::move(curved);
+    return edges;
   }
 
   void compareTopology(const TetMesh& mesh) {

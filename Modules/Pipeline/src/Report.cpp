@@ -55,6 +55,13 @@ Json toJsonObject(const LostPieces& lost) {
   return {{"components", lost.components}, {"volume_mm3", lost.volume}};
 }
 
+Json toJsonObject(const CurvedBoundary& curved) {
+  return {{"boundary_edges", curved.boundaryEdges},
+          {"pulled_back", curved.pulledBackEdges},
+          {"straightened", curved.straightenedEdges},
+          {"away_from_the_surface", curved.awayEdges}};
+}
+
 Json toJsonArray(const std::vector<WorstElement>& worst) {
   Json list = Json::array();
   for (const WorstElement& element : worst)
@@ -121,7 +128,8 @@ Json toJsonObject(const TissueReport& report) {
           {"topology_difference_count", report.topologyDifferenceCount},
           {"topology_differences", toJsonArray(report.topologyDifferences)},
           {"fidelity", toJsonObject(report.fidelity)},
-          {"lost", toJsonObject(report.lost)}};
+          {"lost", toJsonObject(report.lost)},
+          {"curved_edges", report.curved ? toJsonObject(*report.curved) : Json()}};
 }
 
 Json toJsonObject(const MeshTissuesOptions& options, double voxel) {

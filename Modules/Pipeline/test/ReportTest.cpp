@@ -54,6 +54,7 @@ TEST(Report, HasTheFieldsThatReadersExpect) {
   EXPECT_EQ(keys(tissue), (std::vector<std::string>{"color",
                                                     "combined_label",
                                                     "conditions",
+                                                    "curved_edges",
                                                     "edge_length_mm",
                                                     "fidelity",
                                                     "file",

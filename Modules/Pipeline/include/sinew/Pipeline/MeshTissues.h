@@ -131,6 +131,7 @@ struct TissueReport {
   std::vector<TopologyDifference> topologyDifferences;  ///< up to kListedTopologyDifferences, widest first
   Fidelity fidelity;
   LostPieces lost;
+  std::optional<CurvedBoundary> curved;  ///< of tets of ten nodes, without the edges themselves
 };
 
 /// Called from any thread, one call at a time, as tissues advance: name, stage, and the fraction of all work
