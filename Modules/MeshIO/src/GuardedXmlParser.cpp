@@ -121,4 +121,26 @@ bool GuardedXmlParser::blocksAreSound(vtkXMLDataElement* array) {
   return sound;
 }
 
+bool GuardedXmlParser::readTexts(vtkXMLDataElement* element, vtkIdType at, vtkIdType count,
+                                 vtkStringArray* texts) {
+  std::string characters(std::size_t{1} << 20, '\0');
+  const char* format = element->GetAttribute("format");
+  vtkTypeInt64 offset = 0;
+  const bool appended = format != nullptr && std::string_view(format) == "appended" &&
+                        element->GetScalarAttribute("offset", offset) != 0;
+  const int ascii = format == nullptr || std::string_view(format) == "ascii";
+  const std::size_t found = appended
+                                ? ReadAppendedData(offset, characters.data(), 0, characters.size())
+                                : ReadInlineData(element, ascii, characters.data(), 0, characters.size());
+  characters.resize(found);
+  std::size_t begin = 0;
+  for (vtkIdType t = 0; t < count; ++t) {
+    const std::size_t end = characters.find('\0', begin);
+    if (end == std::string::npos) return false;
+    texts->SetValue(at + t, characters.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return true;
+}
+
 }  // namespace sinew

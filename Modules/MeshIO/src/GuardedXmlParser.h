@@ -1,5 +1,6 @@
 #pragma once
 
+#include <vtkStringArray.h>
 #include <vtkXMLDataParser.h>
 
 #include <cstdint>
@@ -25,6 +26,10 @@ class GuardedXmlParser : public vtkXMLDataParser {
   /// Do the sizes of an array's compressed blocks fit together, and in the file? True for arrays that are not
   /// compressed.
   bool blocksAreSound(vtkXMLDataElement* array);
+
+  /// Reads the texts of an array, `count` at most, the first one to the place `at`; a megabyte of them at
+  /// most.
+  bool readTexts(vtkXMLDataElement* element, vtkIdType at, vtkIdType count, vtkStringArray* texts);
 
  protected:
   GuardedXmlParser() = default;

@@ -4,6 +4,7 @@
 
 #include <vtkAbstractArray.h>
 #include <vtkDataArraySelection.h>
+#include <vtkStringArray.h>
 #include <vtkXMLReader.h>
 
 namespace sinew {
@@ -12,6 +13,7 @@ namespace sinew {
 /// - When it cannot read an array of cells, its message asks the point data for the name, and crashes where
 ///   there are none. Sinew has no use for point data: the cell data stand in their place.
 /// - When a cell's offset promises so many values that their bytes overflow, it writes behind its memory.
+/// - It writes texts behind an array when there are more of them than the array has tuples.
 /// - What GuardedXmlParser refuses.
 template <class Reader>
 class GuardedXmlReader : public Reader {
@@ -36,6 +38,8 @@ class GuardedXmlReader : public Reader {
     constexpr vtkIdType mostValues = vtkIdType{1} << 40;
     const bool fits = count >= 0 && count <= mostValues && at + count <= array->GetNumberOfValues();
     auto* parser = static_cast<GuardedXmlParser*>(this->XMLParser);
+    if (auto* texts = vtkStringArray::SafeDownCast(array))
+      return fits && parser->blocksAreSound(element) && parser->readTexts(element, at, count, texts) ? 1 : 0;
     return fits && parser->blocksAreSound(element)
                ? Reader::ReadArrayValues(element, at, array, first, count, type)
                : 0;
