@@ -72,7 +72,7 @@ class Assembly {
       Tissue tissue = *found;
       empty.erase(found);
       if (tissue.layer < 0 || tissue.layer >= std::ssize(input_.layers)) tissue.layer = 0;
-      if (!isUsed(tissue.layer, tissue.label)) return tissue;
+      if (!isUsed(tissue.layer, tissue)) return tissue;
     }
     Tissue tissue;
     tissue.name = tissue.id = name;
@@ -91,9 +91,10 @@ class Assembly {
            std::ranges::any_of(input_.emptyTissues, condition) || std::ranges::any_of(entries_, condition);
   }
 
-  bool isUsed(int layer, std::int32_t label) const {
-    return label == 0 || anyEntry([&](const Tissue& other) {
-             return other.layer == layer && other.label == label && other.voxels > 0;
+  /// Whether another tissue, be it empty, has the label of this one on a layer.
+  bool isUsed(int layer, const Tissue& tissue) const {
+    return tissue.label == 0 || anyEntry([&](const Tissue& other) {
+             return other.layer == layer && other.label == tissue.label && other.id != tissue.id;
            });
   }
 
@@ -177,7 +178,7 @@ class Assembly {
         while (place < layerCount() && !isFree(wishes_.claims[c].voxels, place)) ++place;
       }
       if (place == layerCount()) result_.segmentation.layers.emplace_back(layer(0).size(), 0);
-      if (place != home && isUsed(place, tissue.label)) tissue.label = freeLabel();
+      if (place != home && isUsed(place, tissue)) tissue.label = freeLabel();
       tissue.layer = place;
       result_.claims[c].layer = place;
       result_.claims[c].label = tissue.label;

@@ -160,6 +160,24 @@ TEST(AssembleLabels, ALabelThatIsTakenOnAnotherLayerIsNotUsedTwice) {
   EXPECT_EQ(result.claims[0].label, 4);
 }
 
+// On layer 1 the label 1 belongs to a segment that has no voxel: the claim must not become its voxels.
+TEST(AssembleLabels, ALabelOfAnEmptySegmentOnAnotherLayerIsNotUsedEither) {
+  Segmentation input = row({"12", "03"}, {"a", "b", "c"});
+  Tissue empty = input.tissues[0];
+  empty.name = empty.id = "empty";
+  empty.layer = 1;
+  empty.voxels = 0;
+  input.emptyTissues.push_back(empty);
+  const AssembledLabels result =
+      assembleLabels(input, {.claims = {claim("b", 1, "x", 0), claim("a", 0, "x", 0)}, .layers = true});
+  const auto& tissues = result.segmentation.tissues;
+  EXPECT_TRUE(std::ranges::none_of(tissues, [](const Tissue& tissue) { return tissue.name == "empty"; }));
+  EXPECT_TRUE(std::ranges::any_of(result.segmentation.emptyTissues,
+                                  [](const Tissue& tissue) { return tissue.name == "empty"; }));
+  EXPECT_EQ(result.claims[1].layer, 1);
+  EXPECT_NE(result.claims[1].label, 1);
+}
+
 TEST(AssembleLabels, AClaimWithoutVoxelsIsKeptByName) {
   const AssembledLabels result = assembleLabels(row({"0112203"}), {.claims = {claim("a", 0, "000")}});
   EXPECT_EQ(texts(result.segmentation), Texts{"0002203"});

@@ -10,6 +10,9 @@
 
 namespace sinew {
 
+/// Key/value pairs of a NRRD header, read or written: 3,300 segments. NrrdIO compares each with all before it.
+inline constexpr std::size_t kMostNrrdKeys = 30'000;
+
 enum class ImageFormat { Nrrd, Nifti, Meta };
 
 /// What the raw header says beyond what ITK tells.

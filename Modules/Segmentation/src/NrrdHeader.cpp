@@ -16,7 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kLargestHeader = 64 << 20;  // bytes
-constexpr std::size_t kMostKeys = 30'000;  // 3,300 segments; NrrdIO compares each key with all before it
 
 struct NrrdFields {
   std::map<std::string, std::string> fields;  ///< lower-case name -> value
@@ -49,8 +48,8 @@ NrrdFields readFields(const fs::path& file) {
     header.bytes += line.size() + 1;
     if (header.bytes > kLargestHeader)
       text::refuse(file, "has no end of its NRRD header (a blank line); export the segmentation again");
-    if (header.keys.size() > kMostKeys)
-      text::refuse(file, "has more than " + std::to_string(kMostKeys) +
+    if (header.keys.size() > kMostNrrdKeys)
+      text::refuse(file, "has more than " + std::to_string(kMostNrrdKeys) +
                              " key/value pairs in its NRRD header; save it as a plain label map");
     if (line.ends_with('\r')) line.pop_back();
     if (line.empty()) break;

@@ -115,7 +115,11 @@ Segmentation readSegmentation(const std::filesystem::path& file, const ReadSegme
       isDicom(file) ? readDicomSegmentation(file, options.fractionalThreshold) : readImageSegmentation(file);
   if (segmentation.tissues.empty())
     text::refuse(file,
-                 "has no voxel other than 0, so there is no tissue in it; check that it is the segmentation");
+                 segmentation.warnings.empty()
+                     ? "has no voxel other than 0, so there is no tissue in it; check that it is the "
+                       "segmentation"
+                     : "has no voxel inside of the Extents of its segments, and 3D Slicer leaves out the "
+                       "others; correct SegmentN_Extent");
   applyLabelTable(segmentation, table);
   return segmentation;
 }

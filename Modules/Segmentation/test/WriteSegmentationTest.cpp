@@ -67,5 +67,19 @@ TEST(WriteSegmentation, FaultsAreNamed) {
   EXPECT_THROW(writeSegmentation(wrong, folder / "a.seg.nrrd"), std::invalid_argument);
 }
 
+// What is written can be read again.
+TEST(WriteSegmentation, RefusesMoreSegmentsThanItReads) {
+  const test::TempFolder folder;
+  Segmentation segmentation;
+  segmentation.geometry.size = {4000, 1, 1};
+  segmentation.layers.emplace_back(4000);
+  for (std::int32_t label = 1; label <= 4000; ++label) segmentation.layers[0][label - 1] = label;
+  updateTissueTable(segmentation);
+  const std::string message =
+      test::messageOf<std::runtime_error>([&] { writeSegmentation(segmentation, folder / "many.seg.nrrd"); });
+  EXPECT_NE(message.find("key/value pairs for its 4000 segments"), std::string::npos) << message;
+  EXPECT_FALSE(std::filesystem::exists(folder / "many.seg.nrrd"));
+}
+
 }  // namespace
 }  // namespace sinew
