@@ -3,6 +3,8 @@
 #include "sinew/MeshIO/MeshFormats.h"
 #include "sinew/MeshIO/MeshPresets.h"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <array>
 
@@ -53,6 +55,17 @@ std::vector<Option> meshFileOptions(MeshFileSettings& settings) {
        .choices = unitNames()},
       {"--quadratic", &settings.quadratic, "tets of ten nodes, where the format has them"},
   };
+}
+
+void checkMeshFiles(const MeshFileSettings& settings, std::string_view file) {
+  const MeshPreset* preset = findMeshPreset(settings.preset);
+  if (preset != nullptr && preset->onlyMm && !settings.unit.empty() && settings.unit != "mm")
+    throw CLI::ValidationError("--unit", settings.unit + ": --for " + settings.preset +
+                                             " takes mm, the only unit that the program knows");
+  const MeshFormat* format = findMeshFormat(file);
+  if (settings.quadratic && format != nullptr && !format->quadratic)
+    throw CLI::ValidationError("--quadratic", std::string(format->extension) + " has no tets of ten nodes; " +
+                                                  meshExtensions(&MeshFormat::quadratic) + " have them");
 }
 
 WriteMeshOptions resolved(const MeshFileSettings& settings) {

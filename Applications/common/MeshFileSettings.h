@@ -18,6 +18,10 @@ struct MeshFileSettings {
 /// The options of `settings`, as rows; the settings must outlive them.
 std::vector<Option> meshFileOptions(MeshFileSettings& settings);
 
+/// @param file  name of a file to write
+/// @throws CLI::ValidationError when their format, or the program of the preset, cannot hold what is chosen
+void checkMeshFiles(const MeshFileSettings& settings, std::string_view file);
+
 /// What writeMesh takes: the preset, and over it what was chosen one by one.
 WriteMeshOptions resolved(const MeshFileSettings& settings);
 

@@ -41,7 +41,11 @@ Option smoothingOption(Smoothing& smoothing) {
 }
 
 std::vector<Option> tissueOptions(MeshSettings& settings) {
-  return {{"--tissue", &settings.tissues, "mesh only this tissue; repeatable; default all", "NAME|LABEL"},
+  return {{.flags = "--tissue",
+           .target = &settings.tissues,
+           .help = "mesh only this tissue; default all",
+           .form = "NAME|LABEL",
+           .mayHoldCommas = true},
           lutOption(settings.reading)};
 }
 
@@ -53,7 +57,7 @@ std::vector<Option> meshingOptions(MeshSettings& settings) {
       {"--min-edge-length", &meshing.minEdgeLength,
        "smallest cube that refinement may make; 0: the level set's spacing, and where more than 1 % of the "
        "volume would be lost half a voxel, or a quarter of the edge length where that is more"},
-      {"--size", &settings.sizes, "edge length of one tissue; repeatable", "TISSUE=LENGTH"},
+      {"--size", &settings.sizes, "edge length of one tissue", "TISSUE=LENGTH"},
       {.flags = "--target-tets",
        .target = &meshing.targetTets,
        .help = "choose the edge length of each tissue without a --size for so many tets, within 10 %; 0: off",
@@ -69,7 +73,7 @@ std::vector<Option> meshingOptions(MeshSettings& settings) {
        .help = "largest number of lattice levels; 0: as many as the sizes ask for",
        .least = 0},
       smoothingOption(meshing.smoothing),
-      {"--smooth", &settings.smoothings, "smoothing of one tissue; repeatable", "TISSUE=HOW"},
+      {"--smooth", &settings.smoothings, "smoothing of one tissue", "TISSUE=HOW"},
       {.flags = "--method",
        .target = &settings.method,
        .help = "how the mesh is fitted to the surface",

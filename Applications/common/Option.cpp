@@ -30,6 +30,11 @@ std::string longName(const Option& option) {
   return dashes == option.flags.npos ? option.flags : option.flags.substr(dashes + 2);
 }
 
+std::string helpText(const Option& option, ListStyle lists) {
+  if (!std::holds_alternative<std::vector<std::string>*>(option.target)) return option.help;
+  return option.help + (lists == ListStyle::Commas ? "; several with commas between" : "; repeatable");
+}
+
 std::string defaultText(const Option& option) { return std::visit(DefaultText{}, option.target); }
 
 }  // namespace sinew

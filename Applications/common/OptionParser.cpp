@@ -40,8 +40,8 @@ struct Adder {
     return addParsed(app, option, value, &parseSmoothing)->type_name("HOW");
   }
   CLI::Option* operator()(std::vector<std::string>* value) const {
-    CLI::Option* added = app.add_option(option.flags, *value, option.help);
-    if (lists == ListStyle::Commas) added->delimiter(',');
+    CLI::Option* added = app.add_option(option.flags, *value, helpText(option, lists));
+    if (lists == ListStyle::Commas && !option.mayHoldCommas) added->delimiter(',');
     return added->expected(1)->take_all();
   }
   CLI::Option* operator()(std::string* value) const {

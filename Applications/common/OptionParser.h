@@ -6,12 +6,6 @@
 
 namespace sinew {
 
-/// How the values of a list are given.
-enum class ListStyle {
-  Repeated,  ///< the flag once for each: `--tissue a --tissue b`
-  Commas     ///< in one word, as Slicer does: `--tissue a,b`
-};
-
 /// Adds an option to a command line; what it reads goes to the option's target, which must outlive the
 /// parsing.
 CLI::Option* addOption(CLI::App& app, const Option& option, ListStyle lists = ListStyle::Repeated);

@@ -25,7 +25,7 @@ std::map<std::string, std::string> pairs(const std::vector<std::string>& texts) 
 
 std::vector<Option> repairOptions(RepairSettings& settings) {
   return {
-      {"--set", &settings.globals, "a global of the script; repeatable", "NAME=VALUE"},
+      {"--set", &settings.globals, "a global of the script", "NAME=VALUE"},
       {"--grid", &settings.grid,
        "spacing of the level sets; 0: the smallest spacing of the image, but not below half a voxel"},
       smoothingOption(settings.smoothing),

@@ -54,9 +54,12 @@ std::ostream* CommandLine::tables() const {
   return common.quiet ? nullptr : &std::cerr;
 }
 
+void CommandLine::warn(const std::string& warning) const {
+  if (!common.quiet && !warning.empty()) std::cerr << printable(warning) << std::endl;
+}
+
 void CommandLine::printWarnings(const Segmentation& segmentation) const {
-  if (common.quiet) return;
-  for (const std::string& warning : segmentation.warnings) std::cerr << printable(warning) << std::endl;
+  for (const std::string& warning : segmentation.warnings) warn(warning);
 }
 
 void CommandLine::writeJson(const std::string& document) const {

@@ -39,6 +39,8 @@ class CommandLine {
   /// Where tables for people go: standard output, or standard error when that belongs to the JSON; nullptr
   /// for nowhere.
   std::ostream* tables() const;
+  /// One line on standard error, unless --quiet; nothing for an empty text.
+  void warn(const std::string& warning) const;
   /// What reading an input had to change, on standard error unless --quiet.
   void printWarnings(const Segmentation& segmentation) const;
   /// Writes the machine-readable result if the user wants it.

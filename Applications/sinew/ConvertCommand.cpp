@@ -9,32 +9,57 @@
 namespace sinew {
 namespace {
 
+/// An option, and of which kind of inputs it is.
+struct ConvertOption {
+  FileKind kind;
+  Option option;
+};
+
+const char* inputsOf(FileKind kind) { return kind == FileKind::Mesh ? "meshes" : "segmentations"; }
+
+std::vector<ConvertOption> convertOptions(ConvertCommand& command) {
+  using enum FileKind;
+  std::vector<ConvertOption> options{
+      {Segmentation, lutOption(command.reading)},
+      {Segmentation, {"--tissue", &command.tissues, "keep only this tissue; default all", "NAME|LABEL"}},
+      {Segmentation,
+       {.flags = "--overlap",
+        .target = &command.overlap,
+        .help = "where tissues overlap, and the file holds one label per voxel: refuse, or the first of the "
+                "table keeps the voxel",
+        .choices = {"refuse", "first"}}},
+      {Segmentation,
+       {"--priority", &command.priority,
+        "this tissue keeps its voxels where tissues overlap, the first one first", "NAME"}},
+      {Segmentation, fractionalOption(command.reading)},
+      {Segmentation,
+       {"--table", &command.tables,
+        "write names and colours as .ctbl, .csv or .tsv; default beside a label map: OUT.ctbl, for *_dseg "
+        "OUT.tsv",
+        "FILE"}},
+      {Segmentation, {"--no-table", &command.noTable, "no table beside a label map"}},
+  };
+  for (const Option& option : meshFileOptions(command.files)) options.push_back({Mesh, option});
+  return options;
+}
+
 void addOptions(CommandLine& line, ConvertCommand& command, std::vector<std::string>& files) {
-  CLI::App& app = line.app;
-  app.add_option("INPUT... OUT", files, "a segmentation, or meshes; then the file to write")
+  line.app.add_option("INPUT... OUT", files, "a segmentation, or meshes; then the file to write")
       ->type_name("FILE")
       ->required();
-  const std::string segmentations = "Segmentations (.seg.nrrd; label maps .nrrd, .nii, .nii.gz, .mha)";
-  const std::string meshes = "Meshes";
-  std::vector<Option> options{
-      lutOption(command.reading),
-      {"--tissue", &command.tissues, "keep only this tissue; repeatable; default all", "NAME|LABEL"},
-      {.flags = "--overlap",
-       .target = &command.overlap,
-       .help = "where tissues overlap, and the file holds one label per voxel: refuse, or the first of the "
-               "table keeps the voxel",
-       .choices = {"refuse", "first"}},
-      {"--priority", &command.priority,
-       "this tissue keeps its voxels where tissues overlap; repeatable, the first one first", "NAME"},
-      fractionalOption(command.reading),
-      {"--table", &command.tables,
-       "write names and colours as .ctbl, .csv or .tsv; repeatable; default beside a label map: "
-       "OUT.ctbl, for *_dseg OUT.tsv",
-       "FILE"},
-      {"--no-table", &command.noTable, "no table beside a label map"},
-  };
-  for (const Option& option : options) addOption(app, option)->group(segmentations);
-  for (const Option& option : meshFileOptions(command.files)) addOption(app, option)->group(meshes);
+  for (const ConvertOption& row : convertOptions(command))
+    addOption(line.app, row.option)
+        ->group(row.kind == FileKind::Mesh
+                    ? "Meshes"
+                    : "Segmentations (.seg.nrrd; label maps .nrrd, .nii, .nii.gz, .mha)");
+}
+
+/// @throws CLI::ValidationError for an option of the other kind
+void refuseOptionsOfOthers(const CommandLine& line, ConvertCommand& command, FileKind kind) {
+  for (const ConvertOption& row : convertOptions(command))
+    if (row.kind != kind && line.app.get_option(row.option.flags)->count() > 0)
+      throw CLI::ValidationError(row.option.flags, std::string("is for ") + inputsOf(row.kind) +
+                                                       ", and the inputs are " + inputsOf(kind));
 }
 
 int convert(const CommandLine& line, ConvertCommand& command, std::vector<std::string> files) {
@@ -46,6 +71,7 @@ int convert(const CommandLine& line, ConvertCommand& command, std::vector<std::s
   for (const std::string& input : command.inputs)
     if (fileKind(input) != kind)
       throw std::runtime_error(input + ": segmentations and meshes cannot be mixed; convert them one by one");
+  refuseOptionsOfOthers(line, command, kind);
   line.writeJson(kind == FileKind::Mesh ? convertMeshes(line, command) : convertSegmentation(line, command));
   return 0;
 }

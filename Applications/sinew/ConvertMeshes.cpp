@@ -30,36 +30,64 @@ std::string stemOf(const std::string& file) {
   return name.substr(0, name.size() - format->extension.size());
 }
 
-/// Whether readMesh had to invent it.
-bool isNameless(const TissueRegion& region) {
-  return region.name.empty() || region.name == "Segment_" + std::to_string(region.label);
+std::map<std::int32_t, std::int64_t> tetsByLabel(const TetMesh& mesh) {
+  std::map<std::int32_t, std::int64_t> tets;
+  for (const std::int32_t label : mesh.labels) ++tets[label];
+  return tets;
 }
 
 /// A mesh in which every label has a region with a name: that of its file where it had none.
 TissueMesh readNamed(const std::string& file) {
   TissueMesh mesh = readMesh(file);
-  std::map<std::int32_t, std::int64_t> tets;
-  for (const std::int32_t label : mesh.mesh.labels) ++tets[label];
-  for (const auto& [label, count] : tets)
+  for (const auto& [label, count] : tetsByLabel(mesh.mesh))
     if (std::ranges::count(mesh.regions, label, &TissueRegion::label) == 0)
       mesh.regions.push_back({label, {}});
   for (TissueRegion& region : mesh.regions)
-    if (isNameless(region))
+    if (!region.named || region.name.empty())
       region.name =
           mesh.regions.size() == 1 ? stemOf(file) : stemOf(file) + "_" + std::to_string(region.label);
   return mesh;
 }
 
-TissueMesh readAll(const std::vector<std::string>& files) {
-  std::vector<TissueMesh> meshes;
-  for (const std::string& file : files) meshes.push_back(readNamed(file));
-  return combineMeshes(std::move(meshes));
-}
+/// Tissues that a file brings once more.
+class Repetitions {
+ public:
+  void add(const std::string& file, const TissueMesh& mesh) {
+    std::map<std::pair<std::string, std::int64_t>, std::string> here;
+    const std::map<std::int32_t, std::int64_t> tets = tetsByLabel(mesh.mesh);
+    for (const TissueRegion& region : mesh.regions)
+      here.emplace(std::pair(region.name, tets.at(region.label)), file);
+    for (const auto& [tissue, ignored] : here)
+      if (const auto found = firstFiles_.find(tissue); found != firstFiles_.end() && count_++ == 0)
+        first_ = found->second + " and " + file + " both hold '" + tissue.first + "' with " +
+                 grouped(tissue.second) + " tets";
+    firstFiles_.merge(here);
+  }
 
-std::map<std::int32_t, std::int64_t> tetsByLabel(const TetMesh& mesh) {
-  std::map<std::int32_t, std::int64_t> tets;
-  for (const std::int32_t label : mesh.labels) ++tets[label];
-  return tets;
+  /// One line; empty when there is none.
+  std::string warning() const {
+    if (count_ == 0) return {};
+    const std::string others = count_ == 1 ? ""
+                                           : ", and so it is with " + std::to_string(count_ - 1) +
+                                                 (count_ == 2 ? " other tissue" : " other tissues");
+    return first_ + others + "; each is written twice";
+  }
+
+ private:
+  std::map<std::pair<std::string, std::int64_t>, std::string> firstFiles_;  ///< by name and number of tets
+  std::string first_;
+  int count_ = 0;
+};
+
+TissueMesh readAll(const CommandLine& line, const std::vector<std::string>& files) {
+  std::vector<TissueMesh> meshes;
+  Repetitions repetitions;
+  for (const std::string& file : files) {
+    meshes.push_back(readNamed(file));
+    repetitions.add(file, meshes.back());
+  }
+  line.warn(repetitions.warning());
+  return combineMeshes(std::move(meshes));
 }
 
 void print(std::ostream& stream, const std::string& output, const TissueMesh& mesh,
@@ -108,8 +136,9 @@ Json toJson(const ConvertCommand& command, const std::string& output, const Tiss
 std::string convertMeshes(const CommandLine& line, const ConvertCommand& command) {
   const WriteMeshOptions options = resolved(command.files);
   const std::string target = outputOf(command);
+  checkMeshFiles(command.files, fs::path(target).filename().string());
   checkOutputFile(target, line.common.force);
-  TissueMesh mesh = readAll(command.inputs);
+  TissueMesh mesh = readAll(line, command.inputs);
   std::optional<CurvedBoundary> curved;
   if (options.quadratic) {
     curved = curveBoundary(mesh.mesh);

@@ -14,7 +14,7 @@ FileKind fileKind(const std::filesystem::path& file) {
   throw std::runtime_error(file.string() +
                            ": is neither a segmentation (NRRD, NIfTI, MetaImage, DICOM SEG) nor a mesh that "
                            "Sinew reads (" +
-                           meshExtensions(true) + ")");
+                           meshExtensions(&MeshFormat::readable) + ")");
 }
 
 }  // namespace sinew

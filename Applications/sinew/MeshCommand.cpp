@@ -149,6 +149,7 @@ OutputNames outputNames(const MeshCommand& command, const Segmentation& segmenta
 MeshTissuesOptions meshingOptions(const MeshCommand& command) {
   MeshTissuesOptions options = resolved(command.settings);
   options.extension = command.format.empty() ? standardExtension(command.files) : "." + command.format;
+  checkMeshFiles(command.files, "mesh" + options.extension);
   options.writing = resolved(command.files);
   return options;
 }

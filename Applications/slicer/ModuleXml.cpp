@@ -87,7 +87,7 @@ void write(Writer& xml, const ModuleParameter& parameter, int& index) {
   else if (!parameter.result())
     xml.leaf("longflag", name);
   xml.leaf("label", parameter.label.empty() ? caption(name) : parameter.label);
-  xml.leaf("description", parameter.option.help);
+  xml.leaf("description", helpText(parameter.option, ListStyle::Commas));
   if (parameter.channel != ModuleParameter::Channel::None)
     xml.leaf("channel", parameter.channel == ModuleParameter::Channel::Input ? "input" : "output");
   const std::string standard = defaultText(parameter.option);

@@ -5,10 +5,15 @@
 #include "Module.h"
 #include "Process.h"
 #include "TissueScene.h"
+#include "sinew/MeshIO/MeshFormats.h"
 #include "sinew/Pipeline/Report.h"
 #include "sinew/Pipeline/StagedFolder.h"
+#include "sinew/Segmentation/NearestNames.h"
 #include "sinew/Segmentation/SelectTissues.h"
 
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
 #include <memory>
 
 namespace sinew {
@@ -59,6 +64,35 @@ ModuleDescription describe(Mesher& mesher) {
           {filesGroup(mesher), std::move(tissues), std::move(meshing), std::move(results)}};
 }
 
+/// Everything that can be wrong without reading the input.
+void check(const Mesher& mesher) {
+  if (findMeshFormat(std::filesystem::path(mesher.output).filename().string()) == nullptr)
+    throw CLI::ValidationError("output-mesh",
+                               mesher.output + ": unknown kind of mesh file; known are " + meshExtensions());
+}
+
+bool namesTissue(const Segmentation& segmentation, const std::string& text) {
+  const auto fits = [&](const Tissue& tissue) {
+    return tissue.id == text || looseName(tissue.name) == looseName(text);
+  };
+  return std::ranges::any_of(segmentation.tissues, fits) ||
+         std::ranges::any_of(segmentation.emptyTissues, fits);
+}
+
+/// The wishes in a list with commas between, of which names may have some as well.
+std::vector<std::string> wishesIn(const Segmentation& segmentation, const std::vector<std::string>& lists) {
+  std::vector<std::string> wishes;
+  for (const std::string& list : lists) {
+    if (namesTissue(segmentation, list)) {
+      wishes.push_back(list);
+      continue;
+    }
+    for (const std::string& wish : CLI::detail::split(list, ','))
+      wishes.push_back(CLI::detail::trim_copy(wish));
+  }
+  return wishes;
+}
+
 /// What a person ought to know about each tissue; counts into the results.
 /// @throws std::runtime_error when a tissue failed, or none is meshed
 void account(Mesher& mesher, const std::vector<TissueReport>& reports, ModuleProgress& progress) {
@@ -76,10 +110,12 @@ void account(Mesher& mesher, const std::vector<TissueReport>& reports, ModulePro
 }
 
 void run(Mesher& mesher, ModuleProgress& progress) {
+  check(mesher);
   const ThreadLimit limit(mesher.threads);
   const MeshTissuesOptions options = resolved(mesher.settings);
   const Segmentation segmentation = readSegmentation(mesher.input, mesher.settings.reading);
-  const std::vector<int> tissues = selectTissues(segmentation, mesher.settings.tissues);
+  const std::vector<int> tissues =
+      selectTissues(segmentation, wishesIn(segmentation, mesher.settings.tissues));
 
   const InterruptScope interruptible;
   std::unique_ptr<StagedFolder> folder;

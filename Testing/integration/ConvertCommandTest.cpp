@@ -3,6 +3,7 @@
 #include "sinew/MeshIO/ReadMesh.h"
 #include "sinew/Segmentation/ReadSegmentation.h"
 #include "sinew/Segmentation/TissueCentroid.h"
+#include "sinew/Segmentation/WriteSegmentation.h"
 #include "sinew/TestSupport/Files.h"
 
 #include <gtest/gtest.h>
@@ -248,6 +249,106 @@ TEST(ConvertCommand, SeveralMeshesBecomeOneWithARegionEach) {
   const TissueMesh twice = readMesh(out);
   ASSERT_EQ(twice.regions.size(), 2u);
   EXPECT_NE(twice.regions[0].label, twice.regions[1].label) << "one of them got a new one";
+}
+
+TEST(ConvertCommand, OptionsOfTheOtherKindAreWrongUsage) {
+  const TempFolder folder;
+  const fs::path nested = makePhantom(folder, "nested", {"--spacing", "4"});
+  ASSERT_EQ(run({"mesh", nested.string(), "-o", (folder / "m").string(), "--edge-length", "6"}).exitCode, 0);
+  const std::string mesh = (folder / "m" / "core.vtu").string(), inp = (folder / "a.inp").string();
+  const auto expectRefused = [](const std::vector<std::string>& arguments, const std::string& message) {
+    const ProgramResult result = run(arguments);
+    EXPECT_EQ(result.exitCode, 2) << result.err;
+    EXPECT_EQ(result.err, "sinew: " + message + "\n");
+  };
+  const std::vector<std::vector<std::string>> ofSegmentations{{"--lut", "/nonexistent"},
+                                                              {"--tissue", "nosuch"},
+                                                              {"--overlap", "first"},
+                                                              {"--priority", "nosuch"},
+                                                              {"--table", "a.csv"},
+                                                              {"--fractional-threshold", "0.5"},
+                                                              {"--no-table"}};
+  for (std::vector<std::string> option : ofSegmentations) {
+    option.insert(option.begin(), {"convert", mesh, inp});
+    expectRefused(option, option[3] + ": is for segmentations, and the inputs are meshes");
+  }
+  const std::vector<std::vector<std::string>> ofMeshes{
+      {"--for", "febio"}, {"--space", "RAS"}, {"--no-space-tag"}, {"--unit", "m"}, {"--quadratic"}};
+  for (std::vector<std::string> option : ofMeshes) {
+    option.insert(option.begin(), {"convert", nested.string(), (folder / "a.mha").string()});
+    expectRefused(option, option[3] + ": is for meshes, and the inputs are segmentations");
+  }
+  expectRefused({"convert", mesh, (folder / "a.VTK").string(), "--quadratic"},
+                "--quadratic: .vtk has no tets of ten nodes; .msh, .inp, .feb and .exo have them");
+  expectRefused({"convert", mesh, (folder / "a").string(), "--for", "mfem", "--quadratic"},
+                "--quadratic: .vtu has no tets of ten nodes; .msh, .inp, .feb and .exo have them");
+  expectRefused({"convert", mesh, (folder / "a.vtu").string(), "--for", "slicer", "--unit", "m"},
+                "--unit: m: --for slicer takes mm, the only unit that the program knows");
+  EXPECT_EQ(namesIn(folder.path()), (std::vector<std::string>{"m", "nested.seg.nrrd"}));
+}
+
+TEST(ConvertCommand, ATissueThatTwoFilesHoldIsSaid) {
+  const TempFolder folder;
+  const fs::path nested = makePhantom(folder, "nested", {"--spacing", "4"});
+  ASSERT_EQ(run({"mesh", nested.string(), "-o", (folder / "m").string(), "--edge-length", "6", "--combined"})
+                .exitCode,
+            0);
+  const std::string core = (folder / "m" / "core.vtu").string(),
+                    shell = (folder / "m" / "inner_shell.vtu").string(),
+                    all = (folder / "m" / "combined.vtu").string(), out = (folder / "a.vtu").string();
+  const std::string tets = std::to_string(readMesh(core).mesh.tets.size());
+  ASSERT_LT(tets.size(), 4u) << "else they are grouped";
+  const std::string both = all + " and " + core + " both hold 'core' with " + tets + " tets";
+  EXPECT_EQ(run({"convert", all, core, out}).err, both + "; each is written twice\n");
+  EXPECT_EQ(run({"convert", all, core, shell, out, "--force"}).err,
+            both + ", and so it is with 1 other tissue; each is written twice\n");
+  EXPECT_EQ(run({"convert", core, shell, out, "--force"}).err, "");
+  EXPECT_EQ(run({"convert", all, core, out, "--force", "--quiet"}).err, "");
+}
+
+TEST(ConvertCommand, TissuesThatLoseEveryVoxelAreNamed) {
+  const TempFolder folder;
+  Segmentation covered = readSegmentation(makePhantom(folder, "nested", {"--spacing", "4"}));
+  for (Tissue& tissue : covered.tissues) tissue.layer = 0;
+  const std::string whole = covered.tissues[0].name, other = covered.tissues[1].name;
+  // The first tissue once more on a layer of its own, under another name.
+  std::vector<std::int32_t> copy = covered.layers[0];
+  for (std::int32_t& voxel : copy) voxel = voxel == covered.tissues[0].label ? voxel : 0;
+  covered.layers.push_back(copy);
+  Tissue twin = covered.tissues[0];
+  twin.name = twin.id = "twin";
+  twin.layer = 1;
+  covered.tissues.push_back(twin);
+  const std::string input = (folder / "covered.seg.nrrd").string(), out = (folder / "a.mha").string();
+  writeSegmentation(covered, input);
+
+  const ProgramResult result = run({"convert", input, out, "--overlap", "first", "--json", "-", "--quiet"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const Json json = Json::parse(result.out);
+  EXPECT_EQ(json["lost_tissues"], Json({"twin"}));
+  EXPECT_EQ(json["tissues"].size(), covered.tissues.size() - 1);
+
+  const ProgramResult told = run({"convert", input, out, "--priority", "twin", "--force"});
+  EXPECT_EQ(told.err, out + ": no voxel is left of '" + whole +
+                          "': others that overlap come first; write a .seg.nrrd, or change --priority\n");
+  EXPECT_NE(told.out.find(out + ": 4 tissues"), std::string::npos) << told.out;
+}
+
+TEST(ConvertCommand, ANameThatStandsInTheFileStays) {
+  const TempFolder folder;
+  Segmentation segmentation = readSegmentation(makePhantom(folder, "sphere", {"--spacing", "4"}));
+  segmentation.tissues[0].name = "Segment_" + std::to_string(segmentation.tissues[0].label);
+  const std::string input = (folder / "named.seg.nrrd").string();
+  writeSegmentation(segmentation, input);
+  ASSERT_EQ(run({"mesh", input, "-o", (folder / "m").string()}).exitCode, 0);
+  const std::string name = segmentation.tissues[0].name;
+  fs::rename(folder / "m" / (name + ".vtu"), folder / "liver.vtu");
+  for (const char* out : {"a.vtu", "a.msh"}) {
+    convert(folder / "liver.vtu", folder / out);
+    EXPECT_EQ(readMesh(folder / out).regions[0].name, name) << out;
+  }
+  convert(folder / "a.msh", folder / "b.vtu");
+  EXPECT_EQ(readMesh(folder / "b.vtu").regions[0].name, name);
 }
 
 TEST(ConvertCommand, APresetChoosesTheFormatOfANameWithoutOne) {

@@ -46,6 +46,32 @@ TEST(MeshFiles, APresetChoosesFormatAndTagsAndASingleOptionBeatsIt) {
   EXPECT_NE(readBytes(folder / "out" / "scene.mrml").find("coordinateSystem=\"RAS\""), std::string::npos);
 }
 
+TEST(MeshFiles, WhatTheFormatOrTheProgramCannotHoldIsWrongUsage) {
+  const TempFolder folder;
+  const fs::path sphere = makePhantom(folder, "sphere", {"--spacing", "4"});
+  const auto expectRefused = [&](const std::vector<std::string>& options, const std::string& message) {
+    std::vector<std::string> arguments{"mesh", sphere.string(), "-o", (folder / "out").string()};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const ProgramResult result = run(arguments);
+    EXPECT_EQ(result.exitCode, 2) << result.err;
+    EXPECT_EQ(result.err, "sinew: " + message + "\n");
+  };
+  const auto straight = [](const std::string& extension) {
+    return "--quadratic: " + extension + " has no tets of ten nodes; .msh, .inp, .feb and .exo have them";
+  };
+  expectRefused({"--quadratic"}, straight(".vtu"));
+  for (const char* format : {"vtk", "stl", "ply", "obj", "vtp"})
+    expectRefused({"--quadratic", "--format", format}, straight("." + std::string(format)));
+  for (const char* program : {"slicer", "paraview", "mfem"})
+    expectRefused({"--quadratic", "--for", program}, straight(".vtu"));
+  expectRefused({"--quadratic", "--for", "sofa"}, straight(".vtk"));
+  for (const char* unit : {"cm", "m"})
+    expectRefused(
+        {"--for", "slicer", "--unit", unit},
+        "--unit: " + std::string(unit) + ": --for slicer takes mm, the only unit that the program knows");
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
 TEST(MeshFiles, TheMiddlesOfQuadraticTetsLieOnTheLevelSet) {
   const TempFolder folder;
   const fs::path sphere = makePhantom(folder, "sphere", {"--spacing", "1"});

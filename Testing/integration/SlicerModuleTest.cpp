@@ -3,6 +3,7 @@
 #include "Program.h"
 #include "sinew/MeshIO/ReadMesh.h"
 #include "sinew/Segmentation/ReadSegmentation.h"
+#include "sinew/Segmentation/WriteSegmentation.h"
 #include "sinew/TestSupport/Files.h"
 
 #include <gtest/gtest.h>
@@ -122,7 +123,8 @@ TEST_P(SlicerModule, C1_EveryFlagOfTheDescriptionIsTaken) {
   std::vector<std::string> arguments;
   std::vector<std::string> positional;
   for (const Parameter& parameter : parametersOf(runModule(GetParam(), {"--xml"}).out)) {
-    if (!parameter.index.empty()) positional.push_back("missing.nrrd");
+    if (!parameter.index.empty())
+      positional.push_back(parameter.element == "geometry" ? "mesh.vtu" : "missing.nrrd");
     if (parameter.flag.empty()) continue;
     arguments.push_back("--" + parameter.flag);
     for (const std::string& value : exampleOf(parameter)) arguments.push_back(value);
@@ -236,6 +238,37 @@ TEST(SlicerMesher, C3_ProgressGoesFromZeroToOneWithoutPausesAndNothingElseCompla
   EXPECT_EQ(values.front(), 0);
   EXPECT_EQ(values.back(), 1);
   EXPECT_TRUE(std::is_sorted(values.begin(), values.end()));
+}
+
+TEST(SlicerMesher, C2_NamesMayHoldCommas) {
+  const TempFolder folder;
+  Segmentation segmentation = readSegmentation(makePhantom(folder, "nested", {"--spacing", "3"}));
+  segmentation.tissues[0].name = "Neoplasm, Primary";
+  const std::string input = (folder / "commas.seg.nrrd").string(), mesh = (folder / "mesh.vtu").string();
+  writeSegmentation(segmentation, input);
+  const auto regionsOf = [&](const std::string& list) {
+    const ProgramResult result = runModule(kMesher, {"--edge-length", "6", "--tissue", list, input, mesh});
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    std::set<std::string> names;
+    for (const TissueRegion& region : readMesh(mesh).regions) names.insert(region.name);
+    return names;
+  };
+  EXPECT_EQ(regionsOf("Neoplasm, Primary"), std::set<std::string>{"Neoplasm, Primary"});
+  EXPECT_EQ(regionsOf("inner shell, middle shell"), (std::set<std::string>{"inner shell", "middle shell"}));
+}
+
+TEST_P(SlicerModule, C1_ListsAreSaidToHaveCommas) {
+  const std::string xml = runModule(GetParam(), {"--xml"}).out;
+  EXPECT_EQ(xml.find("repeatable"), std::string::npos);
+  EXPECT_NE(xml.find("; several with commas between</description>"), std::string::npos);
+}
+
+TEST(SlicerMesher, C4_AnUnknownKindOfMeshIsToldAtOnceByItsName) {
+  const ProgramResult result = runModule(kMesher, {"missing.nrrd", "out/mesh.xyz"});
+  EXPECT_EQ(result.exitCode, 2);
+  EXPECT_EQ(result.err,
+            "SinewMesher: output-mesh: out/mesh.xyz: unknown kind of mesh file; known are .vtu, .vtk, "
+            ".msh, .inp, .feb, .exo, .stl, .ply, .obj and .vtp\n");
 }
 
 TEST(SlicerMesher, C4_FailureIsOneLineAnExitCodeAndNoFile) {

@@ -20,16 +20,16 @@ namespace {
 using enum MeshContent;
 
 constexpr std::array kRows{
-    MeshFormatRow{{".vtu", "VTK XML unstructured grid", Volume, true}, &writeVtu, &readVtu},
-    MeshFormatRow{{".vtk", "legacy VTK 4.2", Volume, true}, &writeLegacyVtk, &readLegacyVtk},
-    MeshFormatRow{{".msh", "Gmsh 2.2", Volume, true}, &writeGmsh, &readGmsh},
-    MeshFormatRow{{".inp", "Abaqus and CalculiX", Volume, false}, &writeAbaqus, nullptr},
-    MeshFormatRow{{".feb", "FEBio 4.0", Volume, false}, &writeFebio, nullptr},
-    MeshFormatRow{{".exo", "Exodus II", Volume, false}, &writeExodus, nullptr},
-    MeshFormatRow{{".stl", "stereolithography, binary", Surface, false}, &writeStl, nullptr},
-    MeshFormatRow{{".ply", "Stanford polygons, binary", Surface, false}, &writePly, nullptr},
-    MeshFormatRow{{".obj", "Wavefront", Surface, false}, &writeObj, nullptr},
-    MeshFormatRow{{".vtp", "VTK XML polygons", Surface, false}, &writeVtp, nullptr},
+    MeshFormatRow{{".vtu", "VTK XML unstructured grid", Volume, true, false}, &writeVtu, &readVtu},
+    MeshFormatRow{{".vtk", "legacy VTK 4.2", Volume, true, false}, &writeLegacyVtk, &readLegacyVtk},
+    MeshFormatRow{{".msh", "Gmsh 2.2", Volume, true, true}, &writeGmsh, &readGmsh},
+    MeshFormatRow{{".inp", "Abaqus and CalculiX", Volume, false, true}, &writeAbaqus, nullptr},
+    MeshFormatRow{{".feb", "FEBio 4.0", Volume, false, true}, &writeFebio, nullptr},
+    MeshFormatRow{{".exo", "Exodus II", Volume, false, true}, &writeExodus, nullptr},
+    MeshFormatRow{{".stl", "stereolithography, binary", Surface, false, false}, &writeStl, nullptr},
+    MeshFormatRow{{".ply", "Stanford polygons, binary", Surface, false, false}, &writePly, nullptr},
+    MeshFormatRow{{".obj", "Wavefront", Surface, false, false}, &writeObj, nullptr},
+    MeshFormatRow{{".vtp", "VTK XML polygons", Surface, false, false}, &writeVtp, nullptr},
 };
 
 bool endsWith(std::string_view name, std::string_view extension) {
@@ -60,10 +60,10 @@ const MeshFormat* findMeshFormat(std::string_view fileName) {
   return row != nullptr ? &row->format : nullptr;
 }
 
-std::string meshExtensions(bool readable) {
+std::string meshExtensions(bool MeshFormat::*only) {
   std::vector<std::string_view> extensions;
   for (const MeshFormat& format : meshFormats())
-    if (!readable || format.readable) extensions.push_back(format.extension);
+    if (only == nullptr || format.*only) extensions.push_back(format.extension);
   std::string text;
   for (std::size_t i = 0; i < extensions.size(); ++i)
     text += std::string(i == 0 ? "" : i + 1 < extensions.size() ? ", " : " and ").append(extensions[i]);

@@ -22,7 +22,7 @@ TissueMesh readMesh(const std::filesystem::path& file) try {
   requireReadable(file);
   const MeshFormatRow* row = findMeshFormatRow(file.filename().string());
   if (row == nullptr || row->read == nullptr)
-    fail(file, "unknown kind of mesh; " + meshExtensions(true) + " can be read");
+    fail(file, "unknown kind of mesh; " + meshExtensions(&MeshFormat::readable) + " can be read");
   TissueMesh mesh = row->read(file);
   if (mesh.mesh.tets.empty()) fail(file, "has no tetrahedra");
   mesh.mesh.kinds = kindsOf(mesh.mesh);

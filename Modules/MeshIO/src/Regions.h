@@ -12,7 +12,9 @@
 namespace sinew {
 
 /// What a label is of which no file says anything.
-inline TissueRegion unnamedRegion(std::int32_t label) { return {label, "Segment_" + std::to_string(label)}; }
+inline TissueRegion unnamedRegion(std::int32_t label) {
+  return {.label = label, .name = "Segment_" + std::to_string(label), .named = false};
+}
 
 using ColorBytes = std::array<std::uint8_t, 3>;
 

@@ -14,6 +14,7 @@ struct MeshFormat {
   std::string_view name;       ///< for help texts
   MeshContent content;         ///< the tets, or the boundary of each tissue as triangles
   bool readable;               ///< readMesh takes it, too
+  bool quadratic;              ///< has tets of ten nodes
 };
 
 /// All of them, the default first.
@@ -23,7 +24,7 @@ std::span<const MeshFormat> meshFormats();
 const MeshFormat* findMeshFormat(std::string_view fileName);
 
 /// The extensions, for messages: `.vtu, .vtk and .msh`.
-/// @param readable  only those that readMesh takes
-std::string meshExtensions(bool readable = false);
+/// @param only  those of which this is true: `&MeshFormat::readable`
+std::string meshExtensions(bool MeshFormat::*only = nullptr);
 
 }  // namespace sinew

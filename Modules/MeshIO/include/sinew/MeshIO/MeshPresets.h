@@ -12,6 +12,7 @@ struct MeshPreset {
   std::string_view name;       ///< of the program, in lower case
   std::string_view extension;  ///< of the format that it reads best, one of meshFormats()
   WriteMeshOptions options;
+  bool onlyMm = false;  ///< it takes every file for millimetres
 };
 
 std::span<const MeshPreset> meshPresets();

@@ -25,6 +25,7 @@ struct TissueRegion {
   std::int32_t label = 0;
   std::string name;                            ///< as the segmentation has it, any characters
   std::array<double, 3> color{0.5, 0.5, 0.5};  ///< RGB in 0..1
+  bool named = true;                           ///< false: no file says the name, and readMesh made it up
 };
 
 /// A mesh of one tissue or of several, as files hold it.
