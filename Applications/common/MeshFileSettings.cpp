@@ -51,9 +51,9 @@ std::vector<Option> meshFileOptions(MeshFileSettings& settings) {
        "do not say in the file which axes it has: meshio and FEBio Studio refuse the mark in .vtu"},
       {.flags = "--unit",
        .target = &settings.unit,
-       .help = "of the coordinates; default mm, the only one for 3D Slicer",
+       .help = "of the coordinates; default mm, the only one with --for slicer",
        .choices = unitNames()},
-      {"--quadratic", &settings.quadratic, "tets of ten nodes, where the format has them"},
+      {"--quadratic", &settings.quadratic, "tets of ten nodes, in .msh, .inp, .feb and .exo"},
   };
 }
 

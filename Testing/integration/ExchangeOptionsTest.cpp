@@ -60,8 +60,8 @@ TEST(MeshFiles, WhatTheFormatOrTheProgramCannotHoldIsWrongUsage) {
     return "--quadratic: " + extension + " has no tets of ten nodes; .msh, .inp, .feb and .exo have them";
   };
   expectRefused({"--quadratic"}, straight(".vtu"));
-  for (const char* format : {"vtk", "stl", "ply", "obj", "vtp"})
-    expectRefused({"--quadratic", "--format", format}, straight("." + std::string(format)));
+  for (const char* format : {".vtk", ".stl", ".ply", ".obj", ".vtp"})
+    expectRefused({"--quadratic", "--format", format + 1}, straight(format));
   for (const char* program : {"slicer", "paraview", "mfem"})
     expectRefused({"--quadratic", "--for", program}, straight(".vtu"));
   expectRefused({"--quadratic", "--for", "sofa"}, straight(".vtk"));

@@ -7,8 +7,8 @@
 
 namespace sinew {
 
-/// One file name without extension per tissue: the tissue's name with everything that some file system or
-/// shell refuses replaced by `_`. Never empty, reserved or hidden; unique without regard to case, in any
+/// One file name without extension per tissue: the tissue's name with spaces and everything that some
+/// file system refuses replaced by `_`. Never empty, reserved or hidden; unique without regard to case, in any
 /// script: tissues that would share a name get `_<label>` appended, or `_<label>_layer<k>` where the label is
 /// shared as well. Give the whole table, so that a tissue's name does not depend on what else is asked for.
 std::vector<std::string> tissueFileStems(const std::vector<Tissue>& tissues);
