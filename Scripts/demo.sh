@@ -30,6 +30,7 @@ Done. In $folder:
 
   upper-arm.seg.nrrd   the phantom: open it in 3D Slicer as a segmentation
 $(cd -- "$folder" && for mesh in *.vtu; do printf '  %-20s tetrahedral mesh, %s\n' "$mesh" "$(du -h -- "$mesh" | cut -f1)"; done)
+  scene.mrml           all of them, with names and colours: drop it onto 3D Slicer
   report.json          quality, topology and fidelity of every mesh
 
 To look at the meshes: paraview $folder/*.vtu
