@@ -220,8 +220,7 @@ TEST(SlicerMesher, C3_ProgressGoesFromZeroToOneWithoutPausesAndNothingElseCompla
   const TempFolder folder;
   const fs::path arm = makePhantom(folder, "upper-arm");
   Program program(kMesher, {"--edge-length", "1.2mm", arm.string(), (folder / "mesh.vtu").string()});
-  const auto start = Clock::now();
-  auto last = start;
+  auto last = Clock::now();
   std::size_t seen = 0;
   double longest = 0;
   while (!program.ended()) {
@@ -230,8 +229,7 @@ TEST(SlicerMesher, C3_ProgressGoesFromZeroToOneWithoutPausesAndNothingElseCompla
     if (std::exchange(seen, now) != now) last = Clock::now();
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
-  // 2 s are what Slicer's users get; a busy machine stretches pauses and the whole alike
-  EXPECT_LT(longest, std::max(2., secondsSince(start) / 4)) << "what is not flushed does not move the bar";
+  EXPECT_LT(longest, 2) << "what is not flushed does not move the bar";
   const ProgramResult result = program.wait();
   EXPECT_EQ(result.exitCode, 0);
   EXPECT_EQ(result.err, "") << "Slicer takes any text there for an error";

@@ -89,8 +89,7 @@ TEST(DicomSegmentationErrors, BadFilesEndInOneLineWithinASecond) {
     SCOPED_TRACE(bad.what);
     const std::clock_t start = std::clock();
     const std::string message = errorOf(bad.spec);
-    EXPECT_LT(std::clock() - start,
-              5 * CLOCKS_PER_SEC);  // a tenth, but for a sanitized build on a busy machine
+    EXPECT_LT(std::clock() - start, CLOCKS_PER_SEC);
     EXPECT_NE(message.find(bad.expected), std::string::npos) << message;
     EXPECT_NE(message.find("a.dcm: "), std::string::npos) << message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
