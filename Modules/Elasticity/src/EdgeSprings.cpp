@@ -53,37 +53,51 @@ EdgeSprings::EdgeSprings(const ElasticBody& body, const SpringOptions& options) 
     }
 }
 
+/// Calls f(edge, i, j, spring) for the edges of a tet, from node i to node j.
+template <class Function>
+void EdgeSprings::forEdges(std::size_t tet, const Function& f) const {
+  for (std::size_t e = 0; e < 6; ++e) {
+    const auto [p, q] = kTetEdges[e];
+    f(kTetEdges[e], static_cast<std::size_t>(body_.tets[tet][static_cast<std::size_t>(p)]),
+      static_cast<std::size_t>(body_.tets[tet][static_cast<std::size_t>(q)]), springs_[tet][e]);
+  }
+}
+
+/// Adds what pull(i, j, spring) says pulls node i towards node j, and the opposite on j.
+template <class Pull>
+void EdgeSprings::addPulls(const Pull& pull, NodeVectors& forces) const {
+  addTetForces(
+      body_,
+      [&](std::size_t t) {
+        TetForces ofTet;
+        forEdges(t, [&](const std::array<int, 2>& edge, std::size_t i, std::size_t j, const Spring& spring) {
+          const Vector3d force = pull(i, j, spring);
+          ofTet.add(edge[0], force);
+          ofTet.add(edge[1], -force);
+        });
+        return ofTet.columns();
+      },
+      forces);
+}
+
 double EdgeSprings::energy(const NodeVectors& places) const {
   return deterministicSum(body_.tets.size(), [&](std::size_t t) {
     double sum = 0;
-    for (std::size_t e = 0; e < 6; ++e) {
-      const auto [a, b] = endsOf(body_.tets[t], e);
-      const Spring& spring = springs_[t][e];
-      const double stretch =
-          (places[static_cast<std::size_t>(b)] - places[static_cast<std::size_t>(a)]).norm() - spring.length;
+    forEdges(t, [&](const std::array<int, 2>&, std::size_t i, std::size_t j, const Spring& spring) {
+      const double stretch = (places[j] - places[i]).norm() - spring.length;
       sum += spring.stiffness * stretch * stretch / 2;
-    }
+    });
     return sum;
   });
 }
 
 void EdgeSprings::addForces(const NodeVectors& places, NodeVectors& forces) const {
-  addTetForces(
-      body_,
-      [&](std::size_t t) {
-        TetForces ofTet;
-        for (std::size_t e = 0; e < 6; ++e) {
-          const auto [p, q] = kTetEdges[e];
-          const Tet& tet = body_.tets[t];
-          const Vector3d along = places[static_cast<std::size_t>(tet[static_cast<std::size_t>(q)])] -
-                                 places[static_cast<std::size_t>(tet[static_cast<std::size_t>(p)])];
-          const double length = along.norm();
-          if (!(length > 0)) continue;
-          const Vector3d pull = springs_[t][e].stiffness * (length - springs_[t][e].length) / length * along;
-          ofTet.add(p, pull);
-          ofTet.add(q, -pull);
-        }
-        return ofTet.columns();
+  addPulls(
+      [&](std::size_t i, std::size_t j, const Spring& spring) -> Vector3d {
+        const Vector3d along = places[j] - places[i];
+        const double length = along.norm();
+        if (!(length > 0)) return Vector3d::Zero();
+        return spring.stiffness * (length - spring.length) / length * along;
       },
       forces);
 }
@@ -91,20 +105,10 @@ void EdgeSprings::addForces(const NodeVectors& places, NodeVectors& forces) cons
 void EdgeSprings::moveTo(const NodeVectors& places) { places_ = places; }
 
 void EdgeSprings::addDamping(const NodeVectors& velocities, NodeVectors& forces) const {
-  addTetForces(
-      body_,
-      [&](std::size_t t) {
-        TetForces ofTet;
-        for (std::size_t e = 0; e < 6; ++e) {
-          const auto [p, q] = kTetEdges[e];
-          const auto i = static_cast<std::size_t>(body_.tets[t][static_cast<std::size_t>(p)]),
-                     j = static_cast<std::size_t>(body_.tets[t][static_cast<std::size_t>(q)]);
-          const Vector3d u = (places_[j] - places_[i]).normalized();
-          const Vector3d pull = springs_[t][e].damping * u.dot(velocities[j] - velocities[i]) * u;
-          ofTet.add(p, pull);
-          ofTet.add(q, -pull);
-        }
-        return ofTet.columns();
+  addPulls(
+      [&](std::size_t i, std::size_t j, const Spring& spring) -> Vector3d {
+        const Vector3d u = (places_[j] - places_[i]).normalized();
+        return spring.damping * u.dot(velocities[j] - velocities[i]) * u;
       },
       forces);
 }

@@ -36,7 +36,7 @@ void writeModule(TextWriter& text, double perMm) {
 }
 
 void writeMaterials(TextWriter& text, const SolverMesh& mesh, const std::vector<std::string>& names) {
-  text << "  <Material>\n    <!-- placeholders: replace them -->\n";
+  text << "  <Material>\n    <!-- a mesh knows no materials: set your own -->\n";
   for (std::size_t p = 0; p < names.size(); ++p) {
     const TissueRegion& region = *mesh.parts()[p].region;
     text << "    " << xmlComment("tissue " + std::to_string(region.label) + ": " + region.name) << '\n';

@@ -32,6 +32,11 @@ class EdgeSprings final : public ForceModel {
   };
   using OfTet = std::array<Spring, 6>;
 
+  template <class Function>
+  void forEdges(std::size_t tet, const Function& f) const;
+  template <class Pull>
+  void addPulls(const Pull& pull, NodeVectors& forces) const;
+
   const ElasticBody& body_;
   std::vector<OfTet> springs_;
   NodeVectors places_;
