@@ -36,13 +36,14 @@ Lame lame(double young, double poisson);
 
 /// G = (F^T F - I) / 2,  Psi = lambda/2 tr(G)^2 + mu G:G,  P = F (lambda tr(G) I + 2 mu G). Softens under
 /// compression: in one dimension the force has its extreme at a stretch of 1/sqrt(3), and an inverted tet at
-/// rest. Source: Teran et al. 2003, Finite volume methods for the simulation of skeletal muscle, eq. 7.
+/// rest.
+/// Source: Teran et al. 2003, Finite volume methods for the simulation of skeletal muscle, eq. 7.
 std::unique_ptr<Material> stVenantKirchhoff(const Lame& lame);
 
 /// Psi = mu/2 (tr(F^T F) - 3) - mu l(J) + lambda/2 l(J)^2,  l = ln J,  J = det F, which is the Cauchy stress
 /// sigma = mu/J (F F^T - I) + lambda ln J / J I. Below J = 0.2, l is the parabola that goes on with value,
-/// slope and curvature: flat and inverted tets are pushed back by finite forces. Source: Bonet and Wood,
-/// Nonlinear Continuum Mechanics, eq. 6.27; the extension after Teran et al. 2005, section 7.2.
+/// slope and curvature: flat and inverted tets are pushed back by finite forces.
+/// Source: Bonet and Wood, Nonlinear Continuum Mechanics, eq. 6.27; the extension after Teran et al. 2005, section 7.2.
 std::unique_ptr<Material> neoHookean(const Lame& lame);
 
 /// Psi = mu |F - R|^2 + lambda/2 tr(R^T F - I)^2 with F = R S its polar decomposition, R a rotation: linear

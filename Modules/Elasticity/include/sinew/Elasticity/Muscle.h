@@ -43,8 +43,9 @@ struct MuscleFibre {
 };
 
 /// Transversely isotropic, quasi-incompressible muscle and tendon:
-///     Psi = mu/2 (tr(F^T F) - 3) - mu l(J) + (K - 2/3 mu)/2 l(J)^2 + T integral_1^s (passive + activation
-///     active) ds P   = neo-Hookean + T (passive(s) + activation active(s)) (F a) a^T / s,   s = |F a|
+///     Psi = mu/2 (tr(F^T F) - 3) - mu l(J) + (K - 2/3 mu)/2 l(J)^2
+///           + T integral_1^s (passive + activation active) ds
+///     P   = neo-Hookean + T (passive(s) + activation active(s)) (F a) a^T / s,   s = |F a|
 /// with l the logarithm of neoHookean(), a the fibre at rest.
 /// Source: Teran et al. 2005, section 8; Blemker et al. 2005; Weiss et al. 1996.
 class Muscle final : public Material {

@@ -51,7 +51,8 @@ struct AltitudeSpringOptions {
 /// A spring from every node of a tet to the plane of the other three, with a signed length, so that flat and
 /// inverted tets are pushed back: on node 4 f = -(k/l0)(d - l0) n, on the others -w_i f, with n the plane's
 /// normal, d the height, w the barycentric coordinates of the foot; damping -(k_d/l0) n n^T (v4 - sum w_i
-/// v_i). Source: Molino et al. 2003; Teran et al. 2005, section 7.1.
+/// v_i).
+/// Source: Molino et al. 2003; Teran et al. 2005, section 7.1.
 class AltitudeSprings final : public ForceModel {
  public:
   /// Keeps a reference to the body. @throws std::invalid_argument on options out of range

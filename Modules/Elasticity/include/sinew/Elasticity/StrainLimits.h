@@ -13,7 +13,8 @@ struct StrainLimitOptions {
 /// Keeps tets from being flattened in a step: where an altitude would leave its bounds, an impulse along it,
 /// equal and opposite on the node and the foot, which changes neither linear nor angular momentum. One
 /// altitude after the other (Gauss-Seidel), so an earlier one may be pushed out again a little; held nodes
-/// count as infinitely heavy. Source: Bridson et al. 2003, section 4.2; Teran et al. 2005, section 7.3.
+/// count as infinitely heavy.
+/// Source: Bridson et al. 2003, section 4.2; Teran et al. 2005, section 7.3.
 class StrainLimits {
  public:
   /// Keeps a reference to the body. @throws std::invalid_argument on options out of range
