@@ -1,7 +1,7 @@
 # The borders between modules and around foreign libraries, as data, and the function that finds violations.
 #
 # A module may include the public headers of the modules named here, and its own.
-set(modules Segmentation LevelSet Mesher Elasticity MeshIO Repair Pipeline)
+set(modules Segmentation LevelSet Mesher Elasticity MeshIO Repair Pipeline Simulation)
 set(below_Segmentation)
 set(below_LevelSet Segmentation)
 set(below_Mesher)
@@ -9,6 +9,7 @@ set(below_Elasticity Mesher)
 set(below_MeshIO Mesher)
 set(below_Repair Segmentation LevelSet Mesher MeshIO)
 set(below_Pipeline Segmentation LevelSet Mesher MeshIO)
+set(below_Simulation Mesher Elasticity)
 set(below_Applications ${modules})
 
 # Foreign libraries: what their includes look like, and the files that may have them. Tests and benchmarks may use what

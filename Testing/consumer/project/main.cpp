@@ -1,9 +1,10 @@
-// Meshes a phantom with an installed Sinew: consumer FOLDER
+// Meshes a phantom and stretches a tet with an installed Sinew: consumer FOLDER
 #include <exception>
 #include <iostream>
 #include <sinew/MeshIO/ReadMesh.h>
 #include <sinew/Pipeline/MeshTissues.h>
 #include <sinew/Segmentation/Phantom.h>
+#include <sinew/Simulation/MeshTrial.h>
 
 int main(int argc, char** argv) try {
   if (argc != 2) {
@@ -20,6 +21,12 @@ int main(int argc, char** argv) try {
     if (!report.file.empty())
       complete &= std::ssize(sinew::readMesh(folder / report.file).mesh.tets) == report.quality.tets;
   }
+  const sinew::TetMesh tet{.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                           .tets = {{0, 1, 2, 3}},
+                           .labels = {1},
+                           .kinds = {}};
+  const sinew::TrialSetup ends{.attachments = {{0, 1, 2}, {3}}};
+  std::cout << sinew::runTrial(tet, ends, {.trial = sinew::Trial::Stretch}).verdict << '\n';
   return complete ? 0 : 1;
 } catch (const std::exception& error) {
   std::cerr << error.what() << '\n';
