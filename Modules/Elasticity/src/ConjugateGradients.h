@@ -25,7 +25,7 @@ struct CgLimits {
 /// Solves A x = b for the free parts of the nodes, from x as it is; what constraints hold stays as it is in
 /// x.
 /// @param apply  (in, out): out = A in, for a symmetric A
-/// @param precondition  (node, residual) -> an approximation of A^-1 residual at the node
+/// @param precondition  (in, out): out = an approximation of A^-1 in, symmetric, positive, for the free parts
 /// Source: Shewchuk 1994, B3; the filter of Baraff and Witkin 1998, section 5.
 template <class Apply, class Precondition>
 CgResult conjugateGradients(const NodeConstraints& constraints, const Apply& apply,
@@ -33,13 +33,9 @@ CgResult conjugateGradients(const NodeConstraints& constraints, const Apply& app
                             const CgLimits& limits) {
   const std::size_t nodes = b.size();
   NodeVectors residual(nodes), preconditioned(nodes), direction(nodes), image(nodes);
-  const auto refine = [&] {
-    forEachIndex(
-        nodes, [&](std::size_t n) { preconditioned[n] = constraints.free(n, precondition(n, residual[n])); });
-  };
   apply(x, image);
   forEachIndex(nodes, [&](std::size_t n) { residual[n] = constraints.free(n, b[n] - image[n]); });
-  refine();
+  precondition(residual, preconditioned);
   direction = preconditioned;
   double rho = dot(residual, preconditioned);
   const double enough = limits.tolerance * limits.tolerance * rho;
@@ -56,7 +52,7 @@ CgResult conjugateGradients(const NodeConstraints& constraints, const Apply& app
       x[n] += alpha * direction[n];
       residual[n] -= alpha * constraints.free(n, image[n]);
     });
-    refine();
+    precondition(residual, preconditioned);
     const double next = dot(residual, preconditioned), beta = next / rho;
     forEachIndex(nodes, [&](std::size_t n) { direction[n] = preconditioned[n] + beta * direction[n]; });
     rho = next;

@@ -2,8 +2,7 @@
 
 #include "ConjugateGradients.h"
 #include "NodeSums.h"
-
-#include <Eigen/Cholesky>
+#include "TwoLevelPreconditioner.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,50 +13,6 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-/// dP/dF of every tet, F and P as columns below each other.
-using Tangent = Eigen::Matrix<double, 9, 9>;
-
-std::vector<Tangent> tangents(const ElasticBody& body, const Material& material, const NodeVectors& places) {
-  std::vector<Tangent> result(body.tets.size());
-  forEachIndex(result.size(), [&](std::size_t t) {
-    const Matrix3d F = deformationGradient(body, places, t);
-    for (int entry = 0; entry < 9; ++entry) {
-      Matrix3d unit = Matrix3d::Zero();
-      unit(entry % 3, entry / 3) = 1;
-      result[t].col(entry) = material.stressChange(t, F, unit).reshaped();
-    }
-  });
-  return result;
-}
-
-/// The gradient of a node's shape function at rest: the node's step d changes F by d g^T.
-Vector3d shapeGradient(const ElasticBody& body, std::size_t tet, std::size_t corner) {
-  const Matrix3d& inverse = body.inverseEdges[tet];
-  if (corner > 0) return inverse.row(static_cast<Eigen::Index>(corner - 1)).transpose();
-  return -inverse.colwise().sum().transpose();
-}
-
-/// The inverses of the 3 x 3 blocks of K on its diagonal, made positive where they are not.
-std::vector<Matrix3d> inverseBlocks(const ElasticBody& body, const std::vector<Tangent>& tangents) {
-  std::vector<Matrix3d> inverses(body.nodeCount());
-  forEachIndex(body.nodeCount(), [&](std::size_t n) {
-    Matrix3d block = Matrix3d::Zero();
-    for (std::int32_t k = body.firstCorner[n]; k < body.firstCorner[n + 1]; ++k) {
-      const auto corner = static_cast<std::size_t>(body.corners[static_cast<std::size_t>(k)]);
-      const std::size_t tet = corner / 4;
-      const Vector3d g = shapeGradient(body, tet, corner % 4);
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-          block += body.volumes[tet] * g[i] * g[j] * tangents[tet].block<3, 3>(3 * i, 3 * j);
-    }
-    const Eigen::LLT<Matrix3d> factors(block);
-    inverses[n] = factors.info() == Eigen::Success
-                      ? Matrix3d(factors.solve(Matrix3d::Identity()))
-                      : Matrix3d(Matrix3d::Identity() / std::max(block.norm(), 1e-300));
-  });
-  return inverses;
-}
 
 double largestNorm(const NodeVectors& vectors) {
   double largest = 0;
@@ -86,7 +41,7 @@ struct Problem {
   }
 
   /// The force that residuals are compared with: the largest that a tet gives a node, or from outside.
-  double forceScale(const NodeVectors& places) const {
+  double largestForce(const NodeVectors& places) const {
     double largest = outer.empty() ? 0 : largestNorm(outer);
     for (std::size_t t = 0; t < body.tets.size(); ++t) {
       const Matrix3d P = material.stress(t, deformationGradient(body, places, t));
@@ -96,32 +51,34 @@ struct Problem {
   }
 };
 
-NodeVectors newtonDirection(const Problem& problem, const NodeVectors& places, const NodeVectors& residual,
-                            double forcing, const EquilibriumOptions& options, int& iterations) {
-  const std::vector<Tangent> tangent = tangents(problem.body, problem.material, places);
-  const std::vector<Matrix3d> inverses = inverseBlocks(problem.body, tangent);
-  const auto apply = [&](const NodeVectors& in, NodeVectors& out) {
-    std::ranges::fill(out, Vector3d::Zero());
-    addTetForces(
-        problem.body,
-        [&](std::size_t t) -> Matrix3d {
-          const Matrix3d dF = deformationGradient(problem.body, in, t);
-          const Eigen::Matrix<double, 9, 1> dP = tangent[t] * dF.reshaped();
-          return problem.body.volumes[t] * dP.reshaped(3, 3) * problem.body.inverseEdges[t].transpose();
-        },
-        out);
-  };
-  const auto precondition = [&](std::size_t n, const Vector3d& r) -> Vector3d { return inverses[n] * r; };
-  NodeVectors direction(residual.size(), Vector3d::Zero());
-  const CgResult result = conjugateGradients(problem.constraints, apply, precondition, residual, direction,
-                                             {.tolerance = forcing, .iterations = options.cgIterations});
-  iterations += result.iterations;
-  if (result.iterations == 0)  // negative curvature at once: downhill
-    forEachIndex(direction.size(), [&](std::size_t n) {
-      direction[n] = problem.constraints.free(n, precondition(n, residual[n]));
-    });
-  return direction;
-}
+/// The linear systems of one body and its constraints.
+class NewtonSystem {
+ public:
+  NewtonSystem(const ElasticBody& body, const NodeConstraints& constraints)
+      : constraints_(constraints), stiffness_(body), preconditioner_(body, stiffness_, constraints) {}
+
+  NodeVectors direction(const Problem& problem, const NodeVectors& places, const NodeVectors& residual,
+                        double forcing, const EquilibriumOptions& options, int& iterations) {
+    stiffness_.assemble(problem.material, places);
+    preconditioner_.update();
+    const auto apply = [&](const NodeVectors& in, NodeVectors& out) { stiffness_.multiply(in, out); };
+    const auto precondition = [&](const NodeVectors& in, NodeVectors& out) {
+      preconditioner_.apply(in, out);
+    };
+    NodeVectors direction(residual.size(), Vector3d::Zero());
+    const CgResult result = conjugateGradients(constraints_, apply, precondition, residual, direction,
+                                               {.tolerance = forcing, .iterations = options.cgIterations});
+    iterations += result.iterations;
+    if (result.iterations == 0)
+      preconditioner_.apply(residual, direction);  // negative curvature at once: downhill
+    return direction;
+  }
+
+ private:
+  const NodeConstraints& constraints_;
+  StiffnessMatrix stiffness_;
+  TwoLevelPreconditioner preconditioner_;
+};
 
 /// Halves the step until the potential falls enough and no tet is flat. @return whether a step was found
 bool lineSearch(const Problem& problem, const NodeVectors& direction, double slope,
@@ -140,6 +97,12 @@ bool lineSearch(const Problem& problem, const NodeVectors& direction, double slo
   return false;
 }
 
+/// How exactly a Newton step is solved for: the better the nearer, but not beyond what is asked for.
+double forcingTerm(double residual, double tolerance) {
+  constexpr double kLoosest = 0.1, kTightest = 1e-10, kOfTolerance = 0.1;
+  return std::clamp(std::max(residual, kOfTolerance * tolerance / residual), kTightest, kLoosest);
+}
+
 }  // namespace
 
 EquilibriumReport findEquilibrium(const ElasticBody& body, const Material& material,
@@ -148,17 +111,18 @@ EquilibriumReport findEquilibrium(const ElasticBody& body, const Material& mater
   if (options.keepPositive && !(leastVolumeRatio(body, places) > 0))
     throw std::invalid_argument("findEquilibrium: a tet of the start is flat or inverted");
   const Problem problem{body, material, constraints, outerForces};
+  NewtonSystem system(body, constraints);
   EquilibriumReport report;
   for (;; ++report.steps) {
     const NodeVectors residual = problem.residual(places);
-    const double scale = problem.forceScale(places), largest = largestNorm(residual);
-    report.residual = scale > 0 ? largest / scale : 0;
-    report.converged = largest <= options.tolerance * scale;
+    report.largestForce = std::max(problem.largestForce(places), options.leastForce);
+    const double largest = largestNorm(residual);
+    report.residual = report.largestForce > 0 ? largest / report.largestForce : 0;
+    report.converged = report.residual <= options.tolerance;
     if (report.converged || report.steps == options.steps) break;
-    constexpr double kLoosest = 0.1, kTightest = 1e-10;
-    const double forcing = std::clamp(report.residual, kTightest, kLoosest);
+    const double forcing = forcingTerm(report.residual, options.tolerance);
     const NodeVectors direction =
-        newtonDirection(problem, places, residual, forcing, options, report.cgIterations);
+        system.direction(problem, places, residual, forcing, options, report.cgIterations);
     if (!lineSearch(problem, direction, dot(residual, direction), options, places)) break;
   }
   report.leastVolumeRatio = leastVolumeRatio(body, places);

@@ -21,8 +21,8 @@ CgResult solveDamped(const ElasticBody& body, const ForceModel& forces, const No
     forces.addDamping(in, damping);
     forEachIndex(in.size(), [&](std::size_t n) { out[n] = body.masses[n] * in[n] - dt / 2 * damping[n]; });
   };
-  const auto precondition = [&](std::size_t n, const Vector3d& residual) -> Vector3d {
-    return residual / body.masses[n];
+  const auto precondition = [&](const NodeVectors& in, NodeVectors& out) {
+    forEachIndex(in.size(), [&](std::size_t n) { out[n] = constraints.free(n, in[n] / body.masses[n]); });
   };
   return conjugateGradients(constraints, apply, precondition, momentum, v,
                             {.tolerance = options.tolerance, .iterations = options.iterations});

@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 
+#include <cmath>
+#include <numbers>
 #include <random>
 
 namespace sinew::test {
@@ -37,6 +39,17 @@ inline TetMesh barMesh(const Eigen::Vector3i& cubes, double cube) {
       }
   mesh.labels.assign(mesh.tets.size(), 1);
   mesh.kinds.assign(mesh.nodes.size(), NodeKind::Interior);
+  return mesh;
+}
+
+/// A bar along z that is thickest in the middle, where it is twice as thick as at its ends.
+inline TetMesh spindleMesh(const Eigen::Vector3i& cubes, double cube) {
+  TetMesh mesh = barMesh(cubes, cube);
+  const Eigen::Vector3d size = cube * cubes.cast<double>();
+  for (Eigen::Vector3d& node : mesh.nodes) {
+    const double thickness = (1 + std::sin(std::numbers::pi * node.z() / size.z())) / 2;
+    node.head<2>() = size.head<2>() / 2 + thickness * (node - size / 2).head<2>();
+  }
   return mesh;
 }
 
