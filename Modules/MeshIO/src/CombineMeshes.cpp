@@ -57,9 +57,11 @@ std::vector<MeshArray> commonArrays(const std::vector<TissueMesh>& meshes,
   std::vector<MeshArray> common;
   for (const MeshArray& array : meshes.front().arrays.*kind) {
     const auto has = [&](const TissueMesh& mesh) {
-      return std::ranges::count(mesh.arrays.*kind, array.name, &MeshArray::name) > 0;
+      return std::ranges::any_of(mesh.arrays.*kind, [&](const MeshArray& other) {
+        return other.name == array.name && other.components == array.components;
+      });
     };
-    if (std::ranges::all_of(meshes, has)) common.push_back({array.name, {}});
+    if (std::ranges::all_of(meshes, has)) common.push_back({array.name, {}, array.components});
   }
   return common;
 }

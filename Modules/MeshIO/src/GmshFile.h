@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sinew/MeshIO/ReadMesh.h"
 #include "sinew/MeshIO/WriteMesh.h"
 
 #include <filesystem>
@@ -20,6 +21,6 @@ void writeGmsh(const TissueMesh& mesh, const std::filesystem::path& file, const 
 /// physical volumes. Coordinates are turned and scaled to LPS mm where the file says that Sinew wrote them
 /// otherwise.
 /// @throws std::runtime_error naming the file when it is damaged or has no tets.
-TissueMesh readGmsh(const std::filesystem::path& file);
+TissueMesh readGmsh(const std::filesystem::path& file, const ReadMeshOptions& options);
 
 }  // namespace sinew

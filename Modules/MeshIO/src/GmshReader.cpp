@@ -209,7 +209,7 @@ class GmshReader {
 
 }  // namespace
 
-TissueMesh readGmsh(const fs::path& file) {
+TissueMesh readGmsh(const fs::path& file, const ReadMeshOptions& /*it has no arrays*/) {
   std::string bytes(static_cast<std::size_t>(fs::file_size(file)), '\0');
   if (!std::ifstream(file, std::ios::binary).read(bytes.data(), std::ssize(bytes)))
     fail(file, "cannot be read");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sinew/MeshIO/ReadMesh.h"
 #include "sinew/MeshIO/WriteMesh.h"
 
 namespace sinew {
@@ -10,9 +11,9 @@ namespace sinew {
 void writeLegacyVtk(const TissueMesh& mesh, const std::filesystem::path& file,
                     const WriteMeshOptions& options);
 
-/// Reads versions 1 to 5.1, as text or bytes: tets, the cell arrays `labels` and `RGB`. VTK 9.1's reader
+/// Reads versions 1 to 5.1, as text or bytes: tets, the cell arrays `labels` and `RGB`, others when asked for. VTK 9.1's reader
 /// believes what a file says of its cells and arrays, and reads behind its memory.
 /// @throws std::runtime_error naming the file
-TissueMesh readLegacyVtk(const std::filesystem::path& file);
+TissueMesh readLegacyVtk(const std::filesystem::path& file, const ReadMeshOptions& options);
 
 }  // namespace sinew

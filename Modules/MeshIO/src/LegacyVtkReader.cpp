@@ -5,6 +5,7 @@
 #include "Words.h"
 
 #include <array>
+#include <charconv>
 #include <iterator>
 #include <optional>
 
@@ -37,7 +38,8 @@ struct ArrayHead {
 
 class LegacyVtkReader {
  public:
-  LegacyVtkReader(std::string_view bytes, const fs::path& file) : scan_(bytes, file), file_(file) {}
+  LegacyVtkReader(std::string_view bytes, const fs::path& file, const ReadMeshOptions& options)
+      : scan_(bytes, file), file_(file), options_(options) {}
 
   TissueMesh read() {
     readHeader();
@@ -162,8 +164,15 @@ class LegacyVtkReader {
       labels_ = scan_.numbers(head.type, count);
     else if (ofCells_ && head.name == "RGB" && head.components == 3 && head.type == "unsigned_char")
       colors_ = scan_.numbers(head.type, count);
+    else if (options_.cellArrays && ofCells_ && (head.type == "float" || head.type == "double"))
+      cellArrays_.push_back(readNumbers(head, count));
     else
       scan_.skip(head.type, count);
+  }
+
+  MeshArray readNumbers(const ArrayHead& head, std::int64_t count) {
+    const std::vector<double> numbers = scan_.numbers(head.type, count);
+    return {decoded(head.name), {numbers.begin(), numbers.end()}, static_cast<int>(head.components)};
   }
 
   /// Bytes, or as text fractions of 1.
@@ -175,6 +184,21 @@ class LegacyVtkReader {
     std::int64_t product = 0;
     if (__builtin_mul_overflow(components, tuples, &product)) scan_.damaged("an array is too large");
     return product;
+  }
+
+  /// Names have `%20` where a blank was.
+  static std::string decoded(std::string_view name) {
+    std::string text;
+    for (std::size_t i = 0; i < name.size(); ++i) {
+      unsigned code = 0;
+      if (name[i] == '%' && i + 2 < name.size() &&
+          std::from_chars(&name[i + 1], &name[i] + 3, code, 16).ptr == &name[i] + 3)
+        i += 2;
+      else
+        code = static_cast<unsigned char>(name[i]);
+      text += static_cast<char>(code);
+    }
+    return text;
   }
 
   static std::string printable(const std::string& word) {
@@ -193,26 +217,45 @@ class LegacyVtkReader {
       scan_.damaged("it has another number of labels than of cells");
     if (!colors_.empty() && colors_.size() != 3 * cells) colors_.clear();
     FirstCells firstCells;
+    std::vector<std::size_t> tets;
     for (std::size_t cell = 0; cell < cells; ++cell) {
       if (types_[cell] != kTetType) continue;
       const auto number = static_cast<std::int64_t>(cell);
+      tets.push_back(cell);
       mesh.mesh.tets.push_back(checkedTet(connectivity_.data() + offsets_[cell],
                                           offsets_[cell + 1] - offsets_[cell], number, mesh.mesh.nodes.size(),
                                           file_));
       mesh.mesh.labels.push_back(labels_.empty() ? 1 : checkedLabel(labels_[cell], number, file_));
       firstCells.note(mesh.mesh.labels.back(), number);
     }
+    mesh.arrays.cells = arraysOf(tets, cells);
     mesh.regions =
         firstCells.regions({}, [&](std::int64_t cell) { return colorOf(static_cast<std::size_t>(cell)); });
     return mesh;
   }
 
+  /// The arrays that have a tuple for each cell, of tets alone.
+  std::vector<MeshArray> arraysOf(const std::vector<std::size_t>& tets, std::size_t cells) const {
+    std::vector<MeshArray> arrays;
+    for (const MeshArray& array : cellArrays_) {
+      const auto size = static_cast<std::size_t>(array.components);
+      if (size == 0 || array.values.size() != cells * size) continue;
+      MeshArray& part = arrays.emplace_back(MeshArray{array.name, {}, array.components});
+      for (const std::size_t tet : tets)
+        for (std::size_t c = 0; c < size; ++c) part.values.push_back(array.values[tet * size + c]);
+      part.values = turned(part, space());
+    }
+    return arrays;
+  }
+
+  Space space() const { return ras_ ? Space::Ras : Space::Lps; }
+
   void takeNodes(TetMesh& mesh) {
-    const WriteMeshOptions space{.space = ras_ ? Space::Ras : Space::Lps};
+    const WriteMeshOptions options{.space = space()};
     for (std::size_t n = 0; 3 * n < coordinates_.size(); ++n) {
       const Eigen::Vector3d x(&coordinates_[3 * n]);
       if (!x.allFinite()) fail(file_, "node " + std::to_string(n) + " has no finite coordinates");
-      mesh.nodes.push_back(inFile(x, space));
+      mesh.nodes.push_back(inFile(x, options));
     }
   }
 
@@ -223,6 +266,8 @@ class LegacyVtkReader {
 
   LegacyVtkScanner scan_;
   const fs::path& file_;
+  ReadMeshOptions options_;
+  std::vector<MeshArray> cellArrays_;
   bool cellsByOffsets_ = false, ras_ = false;
   bool ofCells_ = false;     ///< arrays that come are of cells
   std::int64_t tuples_ = 0;  ///< of arrays that come
@@ -232,10 +277,10 @@ class LegacyVtkReader {
 
 }  // namespace
 
-TissueMesh readLegacyVtk(const fs::path& file) {
+TissueMesh readLegacyVtk(const fs::path& file, const ReadMeshOptions& options) {
   std::ifstream stream(file, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-  return LegacyVtkReader(bytes, file).read();
+  return LegacyVtkReader(bytes, file, options).read();
 }
 
 }  // namespace sinew

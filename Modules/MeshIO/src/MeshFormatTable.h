@@ -15,7 +15,7 @@ struct MeshFormatRow {
   void (*write)(const TissueMesh& mesh, const std::filesystem::path& file, const WriteMeshOptions& options);
   /// The tets, their labels and regions; nullptr where `format.readable` is false. readMesh adds the rest.
   /// @throws std::runtime_error naming the file
-  TissueMesh (*read)(const std::filesystem::path& file);
+  TissueMesh (*read)(const std::filesystem::path& file, const ReadMeshOptions& options);
 };
 
 /// nullptr when there is none.
@@ -25,6 +25,17 @@ const MeshFormatRow* findMeshFormatRow(std::string_view fileName);
 inline Eigen::Vector3d inFile(const Eigen::Vector3d& x, const WriteMeshOptions& options) {
   const double turn = options.space == Space::Ras ? -1 : 1;
   return options.perMm * Eigen::Vector3d(turn * x.x(), turn * x.y(), x.z());
+}
+
+/// The values of an array along the axes of the file, or back.
+inline std::vector<float> turned(const MeshArray& array, Space space) {
+  std::vector<float> values = array.values;
+  if (array.components == 3 && space == Space::Ras)
+    for (std::size_t i = 0; i < values.size(); i += 3) {
+      values[i] = -values[i];
+      values[i + 1] = -values[i + 1];
+    }
+  return values;
 }
 
 /// Whether the file is to say which space it is in.

@@ -18,12 +18,12 @@ std::vector<NodeKind> kindsOf(const TetMesh& mesh) {
 
 }  // namespace
 
-TissueMesh readMesh(const std::filesystem::path& file) try {
+TissueMesh readMesh(const std::filesystem::path& file, const ReadMeshOptions& options) try {
   requireReadable(file);
   const MeshFormatRow* row = findMeshFormatRow(file.filename().string());
   if (row == nullptr || row->read == nullptr)
     fail(file, "unknown kind of mesh; " + meshExtensions(&MeshFormat::readable) + " can be read");
-  TissueMesh mesh = row->read(file);
+  TissueMesh mesh = row->read(file, options);
   if (mesh.mesh.tets.empty()) fail(file, "has no tetrahedra");
   mesh.mesh.kinds = kindsOf(mesh.mesh);
   return mesh;

@@ -55,10 +55,19 @@ vtkSmartPointer<vtkUnsignedCharArray> colorsOf(const TissueMesh& mesh) {
   return array;
 }
 
-void addArrays(const std::vector<MeshArray>& arrays, vtkDataSetAttributes* attributes) {
-  for (const MeshArray& array : arrays)
-    attributes->AddArray(
-        wrapArray<vtkFloatArray>(array.name.c_str(), array.values.data(), array.values.size(), 1));
+void addArrays(const std::vector<MeshArray>& arrays, Space space, vtkDataSetAttributes* attributes) {
+  for (const MeshArray& array : arrays) {
+    const auto wrapped = [&](const std::vector<float>& values) {
+      return wrapArray<vtkFloatArray>(array.name.c_str(), values.data(), values.size(), array.components);
+    };
+    if (space == Space::Lps) {
+      attributes->AddArray(wrapped(array.values));
+    } else {
+      const auto copy = vtkSmartPointer<vtkFloatArray>::New();
+      copy->DeepCopy(wrapped(turned(array, space)));
+      attributes->AddArray(copy);
+    }
+  }
 }
 
 // ---- from VTK ----
@@ -88,6 +97,24 @@ vtkDataArray* colorArray(vtkUnstructuredGrid* grid) {
   return colors != nullptr && colors->GetDataType() == VTK_UNSIGNED_CHAR ? colors : nullptr;
 }
 
+/// The cell arrays of floating point numbers, of tets alone.
+std::vector<MeshArray> cellArraysOf(vtkUnstructuredGrid* grid, Space space) {
+  std::vector<MeshArray> arrays;
+  for (int a = 0; a < grid->GetCellData()->GetNumberOfArrays(); ++a) {
+    vtkDataArray* data = grid->GetCellData()->GetArray(a);
+    if (data == nullptr || data->GetName() == nullptr) continue;
+    if (data->GetDataType() != VTK_FLOAT && data->GetDataType() != VTK_DOUBLE) continue;
+    MeshArray array{data->GetName(), {}, data->GetNumberOfComponents()};
+    for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
+      if (grid->GetCellType(cell) == VTK_TETRA)
+        for (int c = 0; c < array.components; ++c)
+          array.values.push_back(static_cast<float>(data->GetComponent(cell, c)));
+    array.values = turned(array, space);
+    arrays.push_back(std::move(array));
+  }
+  return arrays;
+}
+
 }  // namespace
 
 vtkSmartPointer<vtkUnstructuredGrid> tissueGrid(const TissueMesh& mesh, const WriteMeshOptions& options) {
@@ -108,12 +135,13 @@ vtkSmartPointer<vtkUnstructuredGrid> tissueGrid(const TissueMesh& mesh, const Wr
   grid->GetCellData()->SetScalars(labels(kLabels));
   grid->GetCellData()->AddArray(colorsOf(mesh));
   if (options.material) grid->GetCellData()->AddArray(labels(kMaterial));
-  addArrays(mesh.arrays.cells, grid->GetCellData());
-  addArrays(mesh.arrays.points, grid->GetPointData());
+  addArrays(mesh.arrays.cells, options.space, grid->GetCellData());
+  addArrays(mesh.arrays.points, options.space, grid->GetPointData());
   return grid;
 }
 
-TissueMesh tissueMeshOf(vtkUnstructuredGrid* grid, bool ras, const fs::path& file) {
+TissueMesh tissueMeshOf(vtkUnstructuredGrid* grid, bool ras, const fs::path& file,
+                        const ReadMeshOptions& options) {
   TissueMesh mesh;
   mesh.mesh.nodes = nodesOf(grid, file);
   if (ras)
@@ -126,6 +154,7 @@ TissueMesh tissueMeshOf(vtkUnstructuredGrid* grid, bool ras, const fs::path& fil
     const double* bytes = colors->GetTuple3(cell);
     return std::array{bytes[0] / 255, bytes[1] / 255, bytes[2] / 255};
   };
+  if (options.cellArrays) mesh.arrays.cells = cellArraysOf(grid, ras ? Space::Ras : Space::Lps);
   mesh.regions = firstCells.regions(markedRegions(grid->GetFieldData()), colorOf);
   return mesh;
 }

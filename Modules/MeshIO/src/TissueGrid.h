@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sinew/MeshIO/ReadMesh.h"
 #include "sinew/MeshIO/WriteMesh.h"
 
 #include <vtkSmartPointer.h>
@@ -17,6 +18,7 @@ vtkSmartPointer<vtkUnstructuredGrid> tissueGrid(const TissueMesh& mesh, const Wr
 /// The tets of a grid with their labels; names from the field data, colours from `RGB`.
 /// @param ras   whether the file marks its coordinates as RAS
 /// @param file  for messages. @throws std::runtime_error naming it
-TissueMesh tissueMeshOf(vtkUnstructuredGrid* grid, bool ras, const std::filesystem::path& file);
+TissueMesh tissueMeshOf(vtkUnstructuredGrid* grid, bool ras, const std::filesystem::path& file,
+                        const ReadMeshOptions& options);
 
 }  // namespace sinew

@@ -33,12 +33,12 @@ void writeVtu(const TissueMesh& mesh, const std::filesystem::path& file, const W
   writeXml<VtuWriter>(grid, file);
 }
 
-TissueMesh readVtu(const std::filesystem::path& file) {
+TissueMesh readVtu(const std::filesystem::path& file, const ReadMeshOptions& options) {
   const auto reader = vtkSmartPointer<GuardedXmlReader<vtkXMLUnstructuredGridReader>>::New();
   reader->SetFileName(file.c_str());
   update(reader, file, "an unstructured grid");
   vtkUnstructuredGrid* grid = reader->GetOutput();
-  return tissueMeshOf(grid, marksRas(grid->GetFieldData()), file);
+  return tissueMeshOf(grid, marksRas(grid->GetFieldData()), file, options);
 }
 
 }  // namespace sinew

@@ -20,9 +20,9 @@ void checkSize(const std::string& name, std::size_t values, std::size_t wanted, 
 void checkSizes(const TissueMesh& mesh) {
   checkSize("labels", mesh.mesh.labels.size(), mesh.mesh.tets.size(), "tets");
   for (const MeshArray& array : mesh.arrays.cells)
-    checkSize(array.name, array.values.size(), mesh.mesh.tets.size(), "tets");
+    checkSize(array.name, array.values.size(), array.components * mesh.mesh.tets.size(), "tets");
   for (const MeshArray& array : mesh.arrays.points)
-    checkSize(array.name, array.values.size(), mesh.mesh.nodes.size(), "nodes");
+    checkSize(array.name, array.values.size(), array.components * mesh.mesh.nodes.size(), "nodes");
 }
 
 /// Regions for the labels that have none.

@@ -48,8 +48,8 @@ TEST(CombineMeshes, ALabelThatIsTakenBecomesTheSmallestThatNobodyUses) {
 
 TEST(CombineMeshes, ArraysStayThatAllHave) {
   TissueMesh a = tetsOf({{1, "a"}}), b = tetsOf({{2, "b"}});
-  a.arrays.cells = {{"one", {1}}, {"both", {2}}};
-  b.arrays.cells = {{"both", {3}}};
+  a.arrays.cells = {{"one", {1}}, {"both", {2}}, {"differ", {1, 2, 3}, 3}};
+  b.arrays.cells = {{"both", {3}}, {"differ", {1}}};
   a.arrays.points = {{"phi", {0, 1, 2, 3}}};
   const TissueMesh all = combineMeshes({a, b});
   ASSERT_EQ(all.arrays.cells.size(), 1u);

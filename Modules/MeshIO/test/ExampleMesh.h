@@ -22,7 +22,9 @@ inline TissueMesh twoTissues() {
   tets.kinds.insert(tets.kinds.end(), block.kinds.begin(), block.kinds.end());
   tets.labels.assign(block.tets.size(), -7);
   tets.labels.resize(tets.tets.size(), 300);
-  mesh.arrays.cells = {{"quality", std::vector<float>(tets.tets.size(), 1.5F)}};
+  mesh.arrays.cells = {{"quality", std::vector<float>(tets.tets.size(), 1.5F)}, {"fibres", {}, 3}};
+  for (std::size_t t = 0; t < tets.tets.size(); ++t)
+    for (const float component : {0.5F, -0.25F, 1.F}) mesh.arrays.cells[1].values.push_back(component);
   mesh.arrays.points = {{"phi", std::vector<float>(tets.nodes.size(), -2)}};
   return mesh;
 }

@@ -80,6 +80,15 @@ TEST_P(LegacyVtkReader, ReadsWhatVtkWrites) {
   EXPECT_EQ(read.mesh.nodes, mesh.mesh.nodes) << "multiples of 1/4, which eleven digits hold";
   ASSERT_EQ(read.regions.size(), 2u);
   EXPECT_NEAR(read.regions[0].color[1], 0.5, 0.5 / 255);
+
+  EXPECT_TRUE(read.arrays.cells.empty());
+  const MeshArrays arrays = readMesh(folder / "a.vtk", {.cellArrays = true}).arrays;
+  const auto values = [](const std::vector<MeshArray>& list, const std::string& name) {
+    const auto found = std::ranges::find(list, name, &MeshArray::name);
+    return found == list.end() ? std::vector<float>() : found->values;
+  };
+  EXPECT_EQ(values(arrays.cells, "quality"), mesh.arrays.cells[0].values);
+  EXPECT_EQ(values(arrays.cells, "fibres"), mesh.arrays.cells[1].values);
 }
 
 const std::string kSound = R"(# vtk DataFile Version 3.0

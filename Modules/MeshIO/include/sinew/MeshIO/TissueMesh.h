@@ -10,14 +10,15 @@
 
 namespace sinew {
 
-/// A named value for every tet, or for every node.
+/// A named value, or several, for every tet, or for every node.
 struct MeshArray {
   std::string name;
   std::vector<float> values;
+  int components = 1;  ///< of each; three are a vector along the axes of LPS
 };
 struct MeshArrays {
-  std::vector<MeshArray> cells;   ///< one value per tet; the names `labels`, `material` and `RGB` are taken
-  std::vector<MeshArray> points;  ///< one value per node
+  std::vector<MeshArray> cells;   ///< of each tet; the names `labels`, `material` and `RGB` are taken
+  std::vector<MeshArray> points;  ///< of each node
 };
 
 /// What the tets of one label are.
