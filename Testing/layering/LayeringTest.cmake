@@ -39,6 +39,8 @@ set(seeds
   "Modules/Repair/include/sinew/Repair/A.h|<lua.hpp>|bad"
   "Modules/Simulation/src/A.cpp|\"sinew/Elasticity/Muscle.h\"|fine"
   "Modules/Simulation/src/B.cpp|\"sinew/MeshIO/WriteMesh.h\"|bad"
+  "Modules/Simulation/src/BsplineSolidFile.cpp|<nlohmann/json.hpp>|fine"
+  "Modules/Simulation/src/C.cpp|<nlohmann/json.hpp>|bad"
   "Modules/Elasticity/src/A.cpp|\"sinew/Simulation/MeshTrial.h\"|bad"
   "Modules/LevelSet/src/F.cpp|<lua.h>|bad"
   "Modules/Pipeline/src/F.cpp|\"sinew/Repair/RepairSegmentation.h\"|bad"
