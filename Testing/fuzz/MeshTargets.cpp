@@ -38,7 +38,8 @@ bool runTriangleMesh(std::string_view bytes, std::string_view extension) {
 }
 
 bool runTetMesh(std::string_view bytes, std::string_view extension) {
-  const auto mesh = readAs("input" + std::string(extension), bytes, &readMesh);
+  const auto read = [](const std::filesystem::path& file) { return readMesh(file, {.cellArrays = true}); };
+  const auto mesh = readAs("input" + std::string(extension), bytes, read);
   if (!mesh) return false;
   const TetMesh& tets = mesh->mesh;
   require(!tets.tets.empty(), "a mesh without tets");
@@ -46,6 +47,10 @@ bool runTetMesh(std::string_view bytes, std::string_view extension) {
   requireNodesOf(tets.tets, tets.nodes.size());
   require(tets.labels.size() == tets.tets.size() && tets.kinds.size() == tets.nodes.size(),
           "an array has another size");
+  for (const MeshArray& array : mesh->arrays.cells)
+    require(array.components > 0 &&
+                array.values.size() == tets.tets.size() * static_cast<std::size_t>(array.components),
+            "a cell array has another size");
   return true;
 }
 
