@@ -1,49 +1,92 @@
 #include "sinew/Simulation/MeshTrial.h"
 
+#include "TrialChecks.h"
+#include "TrialMarch.h"
+#include "TrialVerdict.h"
+#include "sinew/Elasticity/ElasticForces.h"
 #include "sinew/Mesher/MeshQuality.h"
 
-#include <stdexcept>
+#include <Eigen/LU>
+
+#include <cmath>
 
 namespace sinew {
 namespace {
 
-struct TrialRow {
-  std::string_view name;
-  double amount;
+/// Measures the tets of one body at its places.
+class Gauge {
+ public:
+  Gauge(const TetMesh& mesh, const ElasticBody& body) : mesh_(mesh), body_(body) {}
+
+  TrialFrame measure(const NodeVectors& places) {
+    mesh_.nodes = places;
+    const MeshQuality quality = meshQuality(mesh_);
+    TrialFrame frame;
+    frame.maxAspectRatio = quality.maxAspectRatio;
+    frame.minDihedralDeg = quality.minDihedralDeg;
+    frame.maxDihedralDeg = quality.maxDihedralDeg;
+    frame.volume = quality.volume;
+    frame.worst = spot(quality.largestAspectRatios.front().tet);
+    std::size_t flattest = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t t = 0; t < body_.tets.size(); ++t) {
+      const double J = deformationGradient(body_, places, t).determinant();
+      if (J >= least) continue;
+      least = J;
+      flattest = t;
+    }
+    frame.minVolumeRatio = least;
+    frame.flattest = spot(static_cast<std::int64_t>(flattest));
+    return frame;
+  }
+
+ private:
+  TrialSpot spot(std::int64_t tet) const {
+    TrialSpot result{.tet = tet};
+    for (const std::int32_t node : body_.tets[static_cast<std::size_t>(tet)])
+      result.place += body_.rest[static_cast<std::size_t>(node)] / 4;
+    return result;
+  }
+
+  TetMesh mesh_;
+  const ElasticBody& body_;
 };
 
-/// In the order of Trial.
-constexpr std::array<TrialRow, kTrials.size()> kRows{
-    {{"contract", 1}, {"compress", 0.3}, {"indent", 0.3}, {"stretch", 0.3}, {"twist", 90}}};
-
-const TrialRow& row(Trial trial) { return kRows[static_cast<std::size_t>(trial)]; }
-
-/// The frame at rest.
-TrialFrame frameAtRest(const TetMesh& mesh) {
-  const MeshQuality quality = meshQuality(mesh);
-  TrialFrame frame;
-  frame.maxAspectRatio = quality.maxAspectRatio;
-  frame.minDihedralDeg = quality.minDihedralDeg;
-  frame.maxDihedralDeg = quality.maxDihedralDeg;
-  frame.volume = quality.volume;
-  frame.converged = true;
-  return frame;
-}
+/// From 0 up to 1 in the middle of the frames and back to 0.
+double heightOf(int frame, int frames) { return 1 - std::abs(2. * frame / frames - 1); }
 
 }  // namespace
 
-std::string_view trialName(Trial trial) { return row(trial).name; }
-double usualAmount(Trial trial) { return row(trial).amount; }
-
 TrialReport runTrial(const TetMesh& mesh, const TrialSetup& setup, const TrialOptions& options,
                      const OnTrialFrame& onFrame) {
-  if (setup.attachments.origin.empty() || setup.attachments.insertion.empty())
-    throw std::invalid_argument("runTrial: there is no node at an end of the mesh");
+  checkOptions(options);
+  checkSetup(mesh, setup, options);
   const ElasticBody body = elasticBody(mesh);
+  TrialLoad load(mesh, body, setup, options);
+  checkHold(body, load.constraints());
+  TrialMarch march(body, load, options);
+  Gauge gauge(mesh, body);
   TrialReport report;
-  report.frames.push_back(frameAtRest(mesh));
-  if (onFrame) onFrame(report.frames.front(), body.rest);
-  report.verdict = std::string(trialName(options.trial)) + " is not simulated yet";
+  const double full = options.amount.value_or(usualAmount(options.trial));
+  for (int k = 0; k <= options.frames; ++k) {
+    if (k > 0 && !march.advance(full * heightOf(k, options.frames))) {
+      report.stoppedAt = march.amount();
+      break;
+    }
+    TrialFrame frame = gauge.measure(march.places());
+    frame.time = options.duration * k / options.frames;
+    frame.amount = march.amount();
+    frame.energy = elasticEnergy(body, load.material(), march.places());
+    frame.force = load.force(body, march.places());
+    frame.residual = march.residual();
+    frame.newtonSteps = march.takeNewtonSteps();
+    frame.cgIterations = march.takeCgIterations();
+    frame.converged = true;
+    report.frames.push_back(frame);
+    if (onFrame) onFrame(frame, march.places());
+  }
+  report.completed = !report.stoppedAt;
+  judge(options, report);
   return report;
 }
 

@@ -1,4 +1,4 @@
-// Meshes a phantom and stretches a tet with an installed Sinew: consumer FOLDER
+// Meshes a phantom and stretches two tets with an installed Sinew: consumer FOLDER
 #include <exception>
 #include <iostream>
 #include <sinew/MeshIO/ReadMesh.h>
@@ -21,12 +21,14 @@ int main(int argc, char** argv) try {
     if (!report.file.empty())
       complete &= std::ssize(sinew::readMesh(folder / report.file).mesh.tets) == report.quality.tets;
   }
-  const sinew::TetMesh tet{.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
-                           .tets = {{0, 1, 2, 3}},
-                           .labels = {1},
-                           .kinds = {}};
-  const sinew::TrialSetup ends{.attachments = {{0, 1, 2}, {3}}};
-  std::cout << sinew::runTrial(tet, ends, {.trial = sinew::Trial::Stretch}).verdict << '\n';
+  const sinew::TetMesh twoTets{.nodes = {{0, 0, -1}, {1, 0, 0}, {0, 1, 0}, {-1, -1, 0}, {0, 0, 1}},
+                               .tets = {{1, 2, 3, 4}, {1, 3, 2, 0}},
+                               .labels = {1, 1},
+                               .kinds = {}};
+  const sinew::TrialReport stretch =
+      sinew::runTrial(twoTets, {.attachments = {{0}, {4}}}, {.trial = sinew::Trial::Stretch});
+  std::cout << stretch.verdict << '\n';
+  complete &= stretch.completed;
   return complete ? 0 : 1;
 } catch (const std::exception& error) {
   std::cerr << error.what() << '\n';

@@ -40,10 +40,9 @@ struct SoftTissue {
 
 struct TrialOptions {
   Trial trial = Trial::Contract;
-  std::optional<double>
-      amount;           ///< at the height of the trial, in the unit stated there; usualAmount() unless given
-  double duration = 2;  ///< s, of the way there and back
-  int frames = 40;      ///< evenly in time, after the first at rest; at least 2
+  std::optional<double> amount = {};         ///< at its height, in the unit stated above; else usualAmount()
+  double duration = 2;                       ///< s, of the way there and back
+  int frames = 40;                           ///< evenly in time, after the first at rest; at least 2
   MuscleOptions muscle = {};                 ///< of Contract
   SoftTissue tissue = {};                    ///< of the others
   std::optional<Eigen::Vector3d> axis = {};  ///< long axis; from origin to insertion unless given
@@ -73,7 +72,10 @@ struct TrialFrame {
   double minDihedralDeg = 0, maxDihedralDeg = 0;
   double energy =
       0;  ///< elastic, uJ; of Contract with what the active fibres hold, so that it may be negative
-  double volume = 0;    ///< of the mesh, mm^3
+  double volume = 0;  ///< of the mesh, mm^3
+  /// That moves the insertion (Contract: holds it against the pull; Twist: moment about the axis, mN mm) or
+  /// the patch, mN.
+  double force = 0;
   double residual = 0;  ///< largest force out of balance over the largest of a tet on a node
   int newtonSteps = 0, cgIterations = 0;  ///< since the frame before
   bool converged = false;
@@ -89,7 +91,7 @@ struct TrialReport {
   double leastVolumeRatio = 1;     ///< of all frames and tets
   double leastDihedralDeg = 0, largestDihedralDeg = 0;  ///< of all frames and tets
   TrialSpot worst;                                      ///< of the largest aspect ratio of all frames
-  std::optional<double> stoppedAt;                      ///< the amount that found no balance
+  std::optional<double> stoppedAt;  ///< the last amount in balance, of a trial that stopped
 };
 
 using OnTrialFrame = std::function<void(const TrialFrame&, const NodeVectors& places)>;

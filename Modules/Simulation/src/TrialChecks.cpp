@@ -1,0 +1,165 @@
+#include "TrialChecks.h"
+
+#include "TrialText.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace sinew {
+namespace {
+
+using Eigen::Vector3d;
+
+void require(bool condition, const std::string& what) {
+  if (!condition) throw std::invalid_argument("runTrial: " + what);
+}
+
+Vector3d middleOf(const std::vector<Vector3d>& nodes, const Tet& tet) {
+  Vector3d sum = Vector3d::Zero();
+  for (const std::int32_t node : tet) sum += nodes[static_cast<std::size_t>(node)];
+  return sum / 4;
+}
+
+void checkTets(const TetMesh& mesh) {
+  std::size_t bad = 0, first = 0;
+  for (std::size_t t = mesh.tets.size(); t-- > 0;) {
+    const auto at = [&](int c) -> const Vector3d& {
+      return mesh.nodes[static_cast<std::size_t>(mesh.tets[t][static_cast<std::size_t>(c)])];
+    };
+    if ((at(1) - at(0)).cross(at(2) - at(0)).dot(at(3) - at(0)) > 0) continue;
+    ++bad;
+    first = t;
+  }
+  require(!mesh.tets.empty(), "the mesh has no tets");
+  if (bad > 0)
+    require(false, std::to_string(bad) + " tets are flat or inverted at rest, the first is tet " +
+                       std::to_string(first) + " near " + placeText(middleOf(mesh.nodes, mesh.tets[first])));
+}
+
+/// 0 for free nodes, 1 at the origin, 2 at the insertion.
+std::vector<char> endOfNodes(const TetMesh& mesh, const Attachments& attachments) {
+  std::vector<char> end(mesh.nodes.size(), 0);
+  const auto attach = [&](const std::vector<std::int32_t>& nodes, char number, const std::string& name) {
+    require(!nodes.empty(), "there is no node at the " + name);
+    for (const std::int32_t node : nodes) {
+      require(node >= 0 && static_cast<std::size_t>(node) < mesh.nodes.size(),
+              "the " + name + " has node " + std::to_string(node) + ", the mesh " +
+                  std::to_string(mesh.nodes.size()) + " nodes");
+      char& known = end[static_cast<std::size_t>(node)];
+      require(known == 0 || known == number,
+              "node " + std::to_string(node) + " is at the origin and at the insertion");
+      known = number;
+    }
+  };
+  attach(attachments.origin, 1, "origin");
+  attach(attachments.insertion, 2, "insertion");
+  return end;
+}
+
+void checkAttachments(const TetMesh& mesh, const Attachments& attachments) {
+  const std::vector<char> end = endOfNodes(mesh, attachments);
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    int ends = 0;
+    for (const std::int32_t node : mesh.tets[t]) ends |= end[static_cast<std::size_t>(node)];
+    require(ends != 3, "the ends touch: tet " + std::to_string(t) + " near " +
+                           placeText(middleOf(mesh.nodes, mesh.tets[t])) +
+                           " has nodes of both; make the ends smaller or the mesh finer");
+  }
+}
+
+void checkFibres(const TetMesh& mesh, const TrialSetup& setup) {
+  const auto count = [&](std::size_t given, const std::string& what) {
+    require(given == mesh.tets.size(), "there are " + std::to_string(given) + " " + what + " for " +
+                                           std::to_string(mesh.tets.size()) + " tets");
+  };
+  count(setup.fibres.size(), "fibres");
+  if (!setup.tendons.empty()) count(setup.tendons.size(), "shares of tendon");
+  constexpr double kUnit = 1e-6;
+  for (std::size_t t = 0; t < setup.fibres.size(); ++t)
+    require(std::abs(setup.fibres[t].norm() - 1) < kUnit, "the fibre of tet " + std::to_string(t) + " near " +
+                                                              placeText(middleOf(mesh.nodes, mesh.tets[t])) +
+                                                              " is no unit vector");
+}
+
+/// All nodes that tets connect with the `front`.
+void flood(const ElasticBody& body, std::vector<std::size_t> front, std::vector<bool>& reached) {
+  for (const std::size_t n : front) reached[n] = true;
+  while (!front.empty()) {
+    const std::size_t n = front.back();
+    front.pop_back();
+    for (std::int32_t k = body.firstCorner[n]; k < body.firstCorner[n + 1]; ++k)
+      for (const std::int32_t other :
+           body.tets[static_cast<std::size_t>(body.corners[static_cast<std::size_t>(k)] / 4)]) {
+        const auto node = static_cast<std::size_t>(other);
+        if (reached[node]) continue;
+        reached[node] = true;
+        front.push_back(node);
+      }
+  }
+}
+
+}  // namespace
+
+void checkOptions(const TrialOptions& options) {
+  const double amount = options.amount.value_or(usualAmount(options.trial));
+  const std::string given = "the amount is " + fixedText(amount, 3) + ", but must be ";
+  switch (options.trial) {
+    case Trial::Contract:
+      require(amount > 0 && amount <= 1, given + "an activation in (0, 1]");
+      break;
+    case Trial::Compress:
+    case Trial::Indent:
+      require(amount > 0 && amount < 1, given + "a share in (0, 1)");
+      break;
+    case Trial::Stretch:
+      require(amount > 0 && std::isfinite(amount), given + "a positive share");
+      break;
+    case Trial::Twist:
+      require(amount != 0 && std::isfinite(amount), given + "an angle in degrees other than 0");
+      break;
+  }
+  require(options.duration > 0 && std::isfinite(options.duration), "the duration must be positive");
+  require(
+      options.frames >= 2 && options.frames % 2 == 0,
+      "there are " + std::to_string(options.frames) + " frames, but the number must be even and positive");
+  require(options.tolerance > 0 && options.tolerance < 1, "the tolerance must be in (0, 1)");
+  require(options.halvings >= 0, "the halvings must not be negative");
+  require(options.tissue.shear > 0 && options.tissue.bulk > 2. / 3 * options.tissue.shear,
+          "the tissue must have a positive shear modulus, and a bulk modulus above two thirds of it");
+  for (const auto& direction : {options.axis, options.push})
+    require(!direction || (direction->allFinite() && direction->norm() > 0), "a direction must not be zero");
+}
+
+void checkSetup(const TetMesh& mesh, const TrialSetup& setup, const TrialOptions& options) {
+  checkTets(mesh);
+  checkAttachments(mesh, setup.attachments);
+  if (options.trial == Trial::Contract) checkFibres(mesh, setup);
+}
+
+void checkHold(const ElasticBody& body, const NodeConstraints& constraints) {
+  std::vector<std::size_t> held;
+  for (std::size_t n = 0; n < body.nodeCount(); ++n)
+    if (constraints.freedom[n] == NodeFreedom::Held) held.push_back(n);
+  std::vector<bool> reached(body.nodeCount(), false);
+  flood(body, held, reached);
+  std::size_t pieces = 0, tets = 0;
+  std::optional<std::size_t> first;
+  const auto loose = [&](std::size_t t) { return !reached[static_cast<std::size_t>(body.tets[t][0])]; };
+  for (std::size_t t = 0; t < body.tets.size(); ++t) tets += loose(t) ? 1 : 0;
+  for (std::size_t t = 0; t < body.tets.size(); ++t) {
+    if (!loose(t)) continue;
+    if (!first) first = t;
+    ++pieces;
+    flood(body, {static_cast<std::size_t>(body.tets[t][0])}, reached);
+  }
+  if (first)
+    require(false, "nothing holds " + std::to_string(pieces) + " pieces of the mesh, together " +
+                       std::to_string(tets) + " tets, the first near " +
+                       placeText(middleOf(body.rest, body.tets[*first])) +
+                       "; remove them, or let an end reach them");
+}
+
+}  // namespace sinew
