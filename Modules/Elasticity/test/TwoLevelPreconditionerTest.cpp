@@ -84,8 +84,8 @@ TEST(TwoLevelPreconditioner, StepsDoNotGrowWithTheBody) {
     };
     return std::pair(bar.steps(blocks), bar.steps(twoLevels));
   };
-  const auto [shortBlocks, shortPatches] = both(30);
-  const auto [longBlocks, longPatches] = both(120);
+  const auto [shortBlocks, shortPatches] = both(15);
+  const auto [longBlocks, longPatches] = both(60);
   EXPECT_GT(longBlocks, 2 * shortBlocks);
   EXPECT_LT(longPatches, 1.3 * shortPatches);
   EXPECT_LT(longPatches, longBlocks / 5);

@@ -103,20 +103,20 @@ TEST(MeshTrial, AMuscleInSeriesWithATendonFollowsTheForceLengthLaw) {
   }
   MuscleOptions options;
   options.tendonTension = 300;  // soft, so that the muscle shortens much
-  const Recorded trial(mesh, setup, {.frames = 8, .muscle = options});
+  const Recorded trial(mesh, setup, {.frames = 4, .muscle = options});
   ASSERT_TRUE(trial.report.completed) << trial.report.verdict;
   Muscle law({{}, {.tendon = 1}}, options);
-  for (int k = 1; k <= 4; ++k) {
-    law.activate(0.25 * k);
+  for (int k = 1; k <= 2; ++k) {
+    law.activate(0.5 * k);
     double low = 0.5, high = 1;  // stretch of the muscle
     for (int bisection = 0; bisection < 50; ++bisection) {
       const double s = (low + high) / 2;
       (Uniaxial(law, 0, s).stress < Uniaxial(law, 1, 2 - s).stress ? low : high) = s;
     }
-    EXPECT_LT(low, 1 - 0.04 * k);
+    EXPECT_LT(low, 1 - 0.08 * k);
     EXPECT_NEAR(trial.report.frames[static_cast<std::size_t>(k)].force / (4 * Uniaxial(law, 0, low).stress),
                 1, 0.02)
-        << "activation " << 0.25 * k;
+        << "activation " << 0.5 * k;
   }
 }
 
@@ -222,17 +222,15 @@ TEST(MeshTrial, WhatCannotBeIsReported) {
 
 TEST(MeshTrial, SameBitsForAnyNumberOfThreads) {
   const TetMesh mesh = test::spindleMesh({6, 6, 10}, 1);
-  const auto run = [&](Trial trial, std::size_t threads) {
+  const auto run = [&](std::size_t threads) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-    return Recorded(mesh, setupOfBar(mesh), {.trial = trial, .frames = 4});
+    return Recorded(mesh, setupOfBar(mesh), {.frames = 2, .tolerance = 1e-2});
   };
-  for (const Trial trial : {Trial::Contract, Trial::Twist}) {
-    const Recorded one = run(trial, 1), four = run(trial, 4);
-    EXPECT_EQ(one.places, four.places);
-    EXPECT_EQ(one.report.verdict, four.report.verdict);
-    for (std::size_t k = 0; k < one.report.frames.size(); ++k)
-      EXPECT_EQ(one.report.frames[k].energy, four.report.frames[k].energy);
-  }
+  const Recorded one = run(1), four = run(4);
+  EXPECT_EQ(one.places, four.places);
+  EXPECT_EQ(one.report.verdict, four.report.verdict);
+  for (std::size_t k = 0; k < one.report.frames.size(); ++k)
+    EXPECT_EQ(one.report.frames[k].energy, four.report.frames[k].energy);
 }
 
 // Turned and shifted, the mesh must do the same; what differs is rounding, under the tolerance of the balance.
