@@ -24,6 +24,9 @@ constexpr std::array kCommands{
     Command{"convert", "write a segmentation, or meshes as one, in another format", runConvert},
     Command{"info", "show geometry and tissues of a segmentation", runInfo},
     Command{"quality", "measure tetrahedral meshes", runQuality},
+    Command{"fibres", "give every tet of a muscle the direction of its fibres", runFibres},
+    Command{"simulate", "contract, compress, dent, stretch or twist meshes, and say how they bear it",
+            runSimulate},
     Command{"phantom", "write an analytic labelled volume", runPhantom},
 };
 

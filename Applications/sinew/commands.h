@@ -16,6 +16,8 @@ int runRepair(const std::vector<std::string>& arguments);
 int runConvert(const std::vector<std::string>& arguments);
 int runInfo(const std::vector<std::string>& arguments);
 int runQuality(const std::vector<std::string>& arguments);
+int runFibres(const std::vector<std::string>& arguments);
+int runSimulate(const std::vector<std::string>& arguments);
 int runPhantom(const std::vector<std::string>& arguments);
 
 }  // namespace sinew

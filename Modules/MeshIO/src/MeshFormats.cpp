@@ -20,16 +20,16 @@ namespace {
 using enum MeshContent;
 
 constexpr std::array kRows{
-    MeshFormatRow{{".vtu", "VTK XML unstructured grid", Volume, true, false}, &writeVtu, &readVtu},
-    MeshFormatRow{{".vtk", "legacy VTK 4.2", Volume, true, false}, &writeLegacyVtk, &readLegacyVtk},
-    MeshFormatRow{{".msh", "Gmsh 2.2", Volume, true, true}, &writeGmsh, &readGmsh},
-    MeshFormatRow{{".inp", "Abaqus and CalculiX", Volume, false, true}, &writeAbaqus, nullptr},
-    MeshFormatRow{{".feb", "FEBio 4.0", Volume, false, true}, &writeFebio, nullptr},
-    MeshFormatRow{{".exo", "Exodus II", Volume, false, true}, &writeExodus, nullptr},
-    MeshFormatRow{{".stl", "stereolithography, binary", Surface, false, false}, &writeStl, nullptr},
-    MeshFormatRow{{".ply", "Stanford polygons, binary", Surface, false, false}, &writePly, nullptr},
-    MeshFormatRow{{".obj", "Wavefront", Surface, false, false}, &writeObj, nullptr},
-    MeshFormatRow{{".vtp", "VTK XML polygons", Surface, false, false}, &writeVtp, nullptr},
+    MeshFormatRow{{".vtu", "VTK XML unstructured grid", Volume, true, false, true}, &writeVtu, &readVtu},
+    MeshFormatRow{{".vtk", "legacy VTK 4.2", Volume, true, false, true}, &writeLegacyVtk, &readLegacyVtk},
+    MeshFormatRow{{".msh", "Gmsh 2.2", Volume, true, true, false}, &writeGmsh, &readGmsh},
+    MeshFormatRow{{".inp", "Abaqus and CalculiX", Volume, false, true, false}, &writeAbaqus, nullptr},
+    MeshFormatRow{{".feb", "FEBio 4.0", Volume, false, true, false}, &writeFebio, nullptr},
+    MeshFormatRow{{".exo", "Exodus II", Volume, false, true, false}, &writeExodus, nullptr},
+    MeshFormatRow{{".stl", "stereolithography, binary", Surface, false, false, false}, &writeStl, nullptr},
+    MeshFormatRow{{".ply", "Stanford polygons, binary", Surface, false, false, false}, &writePly, nullptr},
+    MeshFormatRow{{".obj", "Wavefront", Surface, false, false, false}, &writeObj, nullptr},
+    MeshFormatRow{{".vtp", "VTK XML polygons", Surface, false, false, false}, &writeVtp, nullptr},
 };
 
 bool endsWith(std::string_view name, std::string_view extension) {

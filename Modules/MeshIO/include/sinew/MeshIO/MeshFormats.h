@@ -15,6 +15,7 @@ struct MeshFormat {
   MeshContent content;         ///< the tets, or the boundary of each tissue as triangles
   bool readable;               ///< readMesh takes it, too
   bool quadratic;              ///< has tets of ten nodes
+  bool arrays;                 ///< has the arrays of a mesh
 };
 
 /// All of them, the default first.

@@ -1,0 +1,83 @@
+#include "SimulationFiles.h"
+
+#include "sinew/MeshIO/WriteMesh.h"
+#include "sinew/Mesher/MeshQuality.h"
+#include "sinew/Pipeline/FileNames.h"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+
+namespace sinew {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The last parts of a path.
+std::string lastParts(const fs::path& path, std::size_t count) {
+  const std::vector<fs::path> parts(path.begin(), path.end());
+  fs::path last;
+  for (std::size_t p = parts.size() - std::min(count, parts.size()); p < parts.size(); ++p) last /= parts[p];
+  return last.generic_string();
+}
+
+}  // namespace
+
+std::vector<std::string> shortNames(const std::vector<std::string>& files) {
+  constexpr std::size_t kMostParts = 64;
+  std::vector<std::string> names(files.size());
+  for (std::size_t parts = 1; parts <= kMostParts; ++parts) {
+    std::ranges::transform(files, names.begin(), [&](const std::string& file) {
+      return lastParts(fs::absolute(file).lexically_normal(), parts);
+    });
+    if (std::set(names.begin(), names.end()).size() == names.size()) return names;
+  }
+  throw std::invalid_argument(names.front() + ": a mesh is given twice");
+}
+
+std::vector<std::string> stemsOf(const std::vector<std::string>& names) {
+  std::vector<Tissue> tissues;
+  for (const std::string& name : names) {
+    Tissue& tissue = tissues.emplace_back();
+    tissue.name = fs::path(name).replace_extension().generic_string();
+    tissue.label = static_cast<std::int32_t>(tissues.size());
+  }
+  return tissueFileStems(tissues);
+}
+
+TrialSeries::TrialSeries(fs::path folder, std::string stem, TissueMesh rest, NodeVectors fibres)
+    : folder_(std::move(folder)),
+      stem_(std::move(stem)),
+      mesh_(std::move(rest)),
+      body_(elasticBody(mesh_.mesh)),
+      fibres_(std::move(fibres)) {}
+
+std::string TrialSeries::frameName(const std::string& stem, std::size_t frame) {
+  constexpr std::size_t kDigits = 3;
+  const std::string number = std::to_string(frame);
+  return stem + '-' + std::string(kDigits - std::min(kDigits, number.size()), '0') + number + ".vtu";
+}
+
+void TrialSeries::add(double time, const NodeVectors& places) {
+  NodeVectors displacement(places.size()), fibres(fibres_.size());
+  for (std::size_t n = 0; n < places.size(); ++n) displacement[n] = places[n] - body_.rest[n];
+  std::vector<float> aspectRatio(body_.tets.size()), volumeRatio(body_.tets.size());
+  for (std::size_t t = 0; t < body_.tets.size(); ++t) {
+    const Eigen::Matrix3d F = deformationGradient(body_, places, t);
+    const auto& [a, b, c, d] = body_.tets[t];
+    aspectRatio[t] = static_cast<float>(tetQuality(places[a], places[b], places[c], places[d]).aspectRatio);
+    volumeRatio[t] = static_cast<float>(F.determinant());
+    if (!fibres.empty()) fibres[t] = (F * fibres_[t]).stableNormalized();
+  }
+  mesh_.mesh.nodes = places;
+  mesh_.arrays.cells = {{"aspect_ratio", std::move(aspectRatio)}, {"J", std::move(volumeRatio)}};
+  if (!fibres.empty()) mesh_.arrays.cells.push_back(vectorArray("fibres", fibres));
+  mesh_.arrays.points = {vectorArray("displacement", displacement)};
+  frames_.push_back({time, frameName(stem_, frames_.size())});
+  writeMesh(mesh_, folder_ / frames_.back().file);
+}
+
+void TrialSeries::finish() const { writeMeshSeries(frames_, folder_ / listName(stem_)); }
+
+}  // namespace sinew
