@@ -68,7 +68,7 @@ void addTrialOptions(CLI::App& app, Choices& choices) {
 void takeTrial(const Choices& choices, TrialOptions& options) {
   const auto given = [](const std::optional<std::string>& amount) { return amount.has_value(); };
   if (std::ranges::count_if(choices.trials, given) != 1)
-    throw CLI::RequiredError("One of --contract, --compress, --indent, --stretch, --twist",
+    throw CLI::RequiredError("choose one of --contract, --compress, --indent, --stretch and --twist",
                              CLI::ExitCodes::RequiredError);
   const auto index =
       static_cast<std::size_t>(std::ranges::find_if(choices.trials, given) - choices.trials.begin());
@@ -79,7 +79,7 @@ void takeTrial(const Choices& choices, TrialOptions& options) {
   if (text.empty()) return;
   if (!CLI::detail::lexical_cast(text, amount) || !(amount > 0))
     throw CLI::ValidationError(row.flag,
-                               "'" + text + "' is no amount above 0; a mesh stands before the option");
+                               "'" + text + "' is no amount above 0; meshes stand before the option");
   options.amount = amount;
 }
 
@@ -230,6 +230,7 @@ int simulate(const CommandLine& line, SimulateCommand& command, const Choices& c
   const Clock::time_point start = Clock::now();
   takeTrial(choices, command.trial);
   takeMaterial(choices, command.trial);
+  if (command.meshes.empty()) throw CLI::RequiredError("MESH");
   if (command.meshes.size() > 1 && !command.compare)
     throw CLI::ValidationError(
         "MESH", std::to_string(command.meshes.size()) + " meshes; add --compare to compare them");
@@ -264,7 +265,7 @@ int runSimulate(const std::vector<std::string>& arguments) {
   SimulateCommand command;
   Choices choices;
   CLI::App& app = line.app;
-  app.add_option("MESH", command.meshes, "meshes: " + meshExtensions(&MeshFormat::readable))->required();
+  app.add_option("MESH", command.meshes, "meshes: " + meshExtensions(&MeshFormat::readable));
   app.add_option(
          "-o,--output", command.folder,
          "folder for the series of meshes (.pvd, .vtu), the table (.csv), the plot (.svg) and report.json; "

@@ -23,6 +23,7 @@ constexpr std::array kColumns{
     Column{"max_dihedral_deg", [](const TrialFrame& frame) { return frame.maxDihedralDeg; }},
     Column{"energy_uJ", [](const TrialFrame& frame) { return frame.energy; }},
     Column{"volume_mm3", [](const TrialFrame& frame) { return frame.volume; }},
+    Column{"force_mN", [](const TrialFrame& frame) { return frame.force; }},
     Column{"residual", [](const TrialFrame& frame) { return frame.residual; }},
     Column{"newton_steps", [](const TrialFrame& frame) { return double(frame.newtonSteps); }},
     Column{"converged", [](const TrialFrame& frame) { return double(frame.converged); }},

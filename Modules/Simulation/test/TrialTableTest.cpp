@@ -25,6 +25,7 @@ TEST(TrialTable, HasALineForEachFrame) {
                           .maxDihedralDeg = 146.5,
                           .energy = -1234.5,
                           .volume = 1e6,
+                          .force = 12.5,
                           .residual = 1e-5,
                           .newtonSteps = 4,
                           .cgIterations = 99,
@@ -34,9 +35,9 @@ TEST(TrialTable, HasALineForEachFrame) {
   EXPECT_EQ(
       trialTable({one, trial("d", true, 1, 0)}),
       "mesh,time_s,amount,max_aspect_ratio,min_volume_ratio,min_dihedral_deg,max_dihedral_deg,energy_uJ,"
-      "volume_mm3,residual,newton_steps,converged\n"
-      "\"a \"\"b\"\",c\",0.05,0.5,3.25,0.9,17,146.5,-1234.5,1e+06,1e-05,4,1\n"
-      "d,0,0,0,1,0,0,0,0,0,0,0\n");
+      "volume_mm3,force_mN,residual,newton_steps,converged\n"
+      "\"a \"\"b\"\",c\",0.05,0.5,3.25,0.9,17,146.5,-1234.5,1e+06,12.5,1e-05,4,1\n"
+      "d,0,0,0,1,0,0,0,0,0,0,0,0\n");
 }
 
 TEST(TrialTable, TrialsThatStoppedAreWorst) {
