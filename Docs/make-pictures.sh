@@ -13,6 +13,11 @@ trap 'rm -rf -- "$work"' EXIT
   --size "biceps tendons=1" --size "triceps tendons=1"
 "$sinew" phantom torus --output "$work/torus.seg.nrrd"
 "$sinew" mesh "$work/torus.seg.nrrd" --output "$work/torus" --edge-length 1 --curvature 0
+"$sinew" fibres "$work/upper-arm/biceps.vtu" --output "$work/muscle/fibres.vtu" --tendon 0.1
+"$sinew" simulate "$work/muscle/fibres.vtu" --contract --output "$work/contraction"
+cp "$work/upper-arm/humerus.vtu" "$work/muscle/humerus.vtu"
+cp "$work/contraction/contract-020.vtu" "$work/muscle/contracted.vtu"
+sed 's/ of fibres.vtu/ of the biceps/' "$work/contraction/contract.svg" >"$docs/contract.svg"
 for phantom in drilled-femur gapped-muscle torn-vessel speckled-liver overlapping-muscles; do
   "$sinew" phantom "$phantom" --output "$work/$phantom.seg.nrrd"
   "$sinew" repair "$work/$phantom.seg.nrrd" "$docs/../Data/$phantom.lua" --output "$work/$phantom-repaired.seg.nrrd"

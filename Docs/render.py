@@ -90,6 +90,84 @@ def actor(faces, colour):
     return result
 
 
+def streamlines(mesh, count):
+    """Lines along the cell array `fibres`, through some tets of the middle third; thinned at random, always alike."""
+    nodes = vtk.vtkCellDataToPointData()
+    nodes.SetInputData(mesh)
+    corners = vtk_to_numpy(mesh.GetCells().GetConnectivityArray()).reshape(-1, 4)
+    centres = vtk_to_numpy(mesh.GetPoints().GetData())[corners].mean(axis=1)
+    low, high = centres[:, 2].min(), centres[:, 2].max()
+    middle = centres[np.abs(centres[:, 2] - (low + high) / 2) < 0.03 * (high - low)]
+    points = vtk.vtkPoints()
+    points.SetData(numpy_to_vtk(np.random.default_rng(1).permutation(middle)[:count], deep=True))
+    seeds = vtk.vtkPolyData()
+    seeds.SetPoints(points)
+    tracer = vtk.vtkStreamTracer()
+    tracer.SetInputConnection(nodes.GetOutputPort())
+    tracer.SetSourceData(seeds)
+    tracer.SetInputArrayToProcess(0, 0, 0, vtk.vtkDataObject.FIELD_ASSOCIATION_POINTS, "fibres")
+    tracer.SetIntegrationDirectionToBoth()
+    tracer.SetIntegratorTypeToRungeKutta4()
+    tracer.SetMaximumPropagation(2 * (high - low))
+    return tracer
+
+
+def fibre_actor(mesh, count, colours):
+    """Fibres as tubes, muscle in the first colour and tendon in the second."""
+    tubes = vtk.vtkTubeFilter()
+    lines = streamlines(mesh, count)
+    tubes.SetInputConnection(lines.GetOutputPort())
+    tubes.SetRadius(0.35)
+    tubes.SetNumberOfSides(10)
+    table = vtk.vtkColorTransferFunction()
+    for place, colour in enumerate(colours):
+        table.AddRGBPoint(place, *colour)
+    mapper = vtk.vtkPolyDataMapper()
+    mapper.SetInputConnection(tubes.GetOutputPort())
+    mapper.SetScalarModeToUsePointFieldData()
+    mapper.SelectColorArray("tendon")
+    mapper.SetLookupTable(table)
+    result = vtk.vtkActor()
+    result.SetMapper(mapper)
+    return result
+
+
+# Of viridis: blue for the least, yellow for the largest.
+VIRIDIS = [(0.27, 0.00, 0.33), (0.23, 0.32, 0.55), (0.13, 0.57, 0.55), (0.37, 0.79, 0.38), (0.99, 0.91, 0.14)]
+
+
+def value_actors(mesh, array, title, limits):
+    """The surface of a mesh in the colours of a cell array, and the bar that tells them."""
+    surface = vtk.vtkDataSetSurfaceFilter()
+    surface.SetInputData(mesh)
+    surface.Update()
+    table = vtk.vtkColorTransferFunction()
+    for place, colour in zip(np.linspace(*limits, len(VIRIDIS)), VIRIDIS):
+        table.AddRGBPoint(place, *colour)
+    body = actor(surface.GetOutput(), (0.3, 0.3, 0.3))
+    mapper = body.GetMapper()
+    mapper.SetScalarModeToUseCellFieldData()
+    mapper.SelectColorArray(array)
+    mapper.SetLookupTable(table)
+    bar = vtk.vtkScalarBarActor()
+    bar.SetLookupTable(table)
+    bar.SetTitle(title)
+    bar.SetNumberOfLabels(4)
+    bar.SetLabelFormat("%.1f")
+    bar.UnconstrainedFontSizeOn()
+    for text, size in ((bar.GetLabelTextProperty(), 14), (bar.GetTitleTextProperty(), 15)):
+        text.SetColor(0.15, 0.15, 0.15)
+        text.SetFontSize(size * SUPERSAMPLING)
+        text.ItalicOff()
+        text.BoldOff()
+        text.ShadowOff()
+    bar.SetOrientationToHorizontal()
+    bar.SetPosition(0.35, 0.31)
+    bar.SetWidth(0.3)
+    bar.SetHeight(0.07)
+    return body, bar
+
+
 def add_lights(renderer):
     """A key light over the viewer's left shoulder, a weak fill from the right, a rim from behind."""
     renderer.RemoveAllLights()
@@ -154,7 +232,8 @@ def darken_hollows(renderer, radius):
 def render(scene, meshes, colours, file):
     """Draws a scene: {width, view: (from, up), parts: {tissue: planes}}; the tissue's mesh is `meshes`/tissue.vtu.
 
-    With `places` {tissue: offset} parts are shown elsewhere, mm.
+    With `places` {tissue: offset} parts are shown elsewhere, mm; with `fibres` the fibres of a mesh too, with `values` a
+    mesh in the colours of a cell array.
     """
     renderer = vtk.vtkRenderer()
     renderer.SetBackground(1, 1, 1)
@@ -163,6 +242,12 @@ def render(scene, meshes, colours, file):
         part = actor(surface_of(mesh, planes, colours[tissue]), colours[tissue])
         part.SetPosition(*scene.get("places", {}).get(tissue, (0, 0, 0)))
         renderer.AddActor(part)
+    if fibres := scene.get("fibres"):
+        renderer.AddActor(fibre_actor(read_mesh(meshes / f"{fibres['mesh']}.vtu"), fibres["count"], fibres["colours"]))
+    if values := scene.get("values"):
+        mesh = read_mesh(meshes / f"{values['mesh']}.vtu")
+        for part in value_actors(mesh, values["array"], values["title"], values["range"]):
+            renderer.AddViewProp(part)
     add_lights(renderer)
     darken_hollows(renderer, scene["hollows"])
     window = vtk.vtkRenderWindow()
