@@ -20,20 +20,22 @@ class StrainLimits {
   /// Keeps a reference to the body. @throws std::invalid_argument on options out of range
   explicit StrainLimits(const ElasticBody& body, const StrainLimitOptions& options = {});
 
-  /// @return how many impulses the last sweep still had to give
-  /// Cost: O(sweeps * tets); tets that share no node at the same time, with the same bits for any number of
-  /// threads.
+  /// @return how many impulses the last sweep gave where bounds are still broken after it
+  /// Cost: O(tets) in parallel to find the tets that break a bound; these are then changed one after the
+  /// other, and from the second sweep on only they and their neighbours are looked at.
   std::size_t apply(const NodeConstraints& constraints, const NodeVectors& places, double dt,
                     NodeVectors& velocities) const;
 
  private:
+  /// What the height needs to stay in its bounds after the step, mm; 0 when it does.
+  double excess(double atRest, double now, double next) const;
+  bool breaks(const NodeVectors& places, const NodeVectors& velocities, double dt, std::size_t tet) const;
   std::size_t limitTet(const NodeConstraints& constraints, const NodeVectors& places, double dt,
                        std::size_t tet, NodeVectors& velocities) const;
 
   const ElasticBody& body_;
   StrainLimitOptions options_;
-  std::vector<std::array<double, 4>> altitudes_;   ///< at rest, mm
-  std::vector<std::vector<std::int32_t>> colors_;  ///< tets of one colour share no node
+  std::vector<std::array<double, 4>> altitudes_;  ///< at rest, mm
 };
 
 }  // namespace sinew
