@@ -141,7 +141,12 @@ TetMesh generateTetMesh(const SignedDistance& phi, const GenerateTetMeshOptions&
   };
   TetMesh mesh =
       compressAndRepair(background, stars, candidate, phi,
-                        {.edgeLength = options.edgeLength, .label = options.label, .tick = tick}, &repair);
+                        {.edgeLength = options.edgeLength,
+                         .label = options.label,
+                         .compressor = options.compressor,
+                         .bounds = options.repair,
+                         .tick = tick},
+                        &repair);
   out.patchesTried = repair.tried;
   out.patchesMended = repair.accepted;
   out.maxBoundaryPhi = maxBoundaryPhi(mesh, phi);

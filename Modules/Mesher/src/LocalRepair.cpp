@@ -71,9 +71,11 @@ class LocalRepair {
         localOf_(background.positions.size(), kNone) {
     Nodes latticeNodes;
     TetMesh mesh = extractMesh(background, set_.keep(), options.label, &latticeNodes);
-    const CompressionReport report = compressOntoSurface(mesh, phi, {.edgeLength = options.edgeLength});
+    const CompressionOptions compression{.edgeLength = options.edgeLength};
+    const CompressionReport report = options.compressor ? options.compressor(mesh, phi, compression)
+                                                        : compressOntoSurface(mesh, phi, compression);
     forEach(latticeNodes.size(), [&](std::size_t n) { positions_[latticeNodes[n]] = mesh.nodes[n]; });
-    spots_ = repairSpots(mesh, latticeNodes, report.unsnapped);
+    spots_ = repairSpots(mesh, latticeNodes, report.unsnapped, options.bounds);
   }
 
   void run(LocalRepairReport& report) {
@@ -305,7 +307,7 @@ class LocalRepair {
         region.size(), [&](std::size_t n) { region[n] = isInner(latticeNodes[n]); }, kGrain);
     const CompressionReport report =
         compressOntoSurface(local, phi_, {.edgeLength = options_.edgeLength}, region);
-    const std::vector<Spot> found = repairSpots(local, latticeNodes, report.unsnapped);
+    const std::vector<Spot> found = repairSpots(local, latticeNodes, report.unsnapped, options_.bounds);
     for (const Spot& spot : found) {
       if (const std::int32_t p = patchAt(spot.nodes); p != kNone) patches[p].after.add(spot);
     }

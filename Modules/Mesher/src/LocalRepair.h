@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sinew/Mesher/Candidate.h"
+#include "sinew/Mesher/GenerateTetMesh.h"
 #include "sinew/Mesher/LatticeMesh.h"
 #include "sinew/Mesher/SignedDistance.h"
 
@@ -11,6 +12,8 @@ namespace sinew {
 struct LocalRepairOptions {
   double edgeLength = 0;         ///< cube size of the lattice at the surface, mm
   std::int32_t label = 1;        ///< of the tets
+  Compressor compressor{};       ///< of the whole candidate; empty: compressOntoSurface
+  RepairBounds bounds{};         ///< of what is repaired
   std::function<void()> tick{};  ///< called before every round; may throw to stop
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "NodeStarEnergy.h"
+#include "sinew/Mesher/TetBounds.h"
 #include "sinew/Mesher/TetMesh.h"
 
 #include <cstdint>
@@ -42,6 +43,6 @@ class Badness {
 /// @param latticeNodes  of the mesh nodes
 /// @param unsnapped  mesh nodes that did not reach the surface
 std::vector<Spot> repairSpots(const TetMesh& mesh, const std::vector<std::int32_t>& latticeNodes,
-                              const std::vector<std::int32_t>& unsnapped);
+                              const std::vector<std::int32_t>& unsnapped, const RepairBounds& bounds);
 
 }  // namespace sinew

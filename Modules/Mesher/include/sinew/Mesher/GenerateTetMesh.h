@@ -1,6 +1,8 @@
 #pragma once
 
+#include "sinew/Mesher/Compression.h"
 #include "sinew/Mesher/SignedDistance.h"
+#include "sinew/Mesher/TetBounds.h"
 #include "sinew/Mesher/TetMesh.h"
 
 #include <cstdint>
@@ -10,6 +12,10 @@
 #include <vector>
 
 namespace sinew {
+
+/// Moves a candidate mesh onto phi = 0; no tet may be inverted afterwards.
+using Compressor =
+    std::function<CompressionReport(TetMesh& mesh, const SignedDistance& phi, const CompressionOptions&)>;
 
 struct GenerateTetMeshOptions {
   double edgeLength = 0;     ///< cube size of the lattice at the surface, mm, > 0
@@ -22,6 +28,8 @@ struct GenerateTetMeshOptions {
   double tolerance = 0;  ///< refine where an edge would leave the surface by more, mm; 0 switches it off
   int levels = 0;        ///< largest number of lattice levels; 0: as many as the sizes ask for
   std::int32_t label = 1;  ///< written to TetMesh::labels
+  Compressor compressor{};         ///< of the whole candidate; empty: compressOntoSurface
+  RepairBounds repair{};           ///< where the candidate gives way afterwards
   std::function<void(std::string_view stage, double fraction)>
       progress;  ///< called from one thread; may throw to stop
 };
