@@ -1,5 +1,7 @@
 #include "MeshSettings.h"
 
+#include "sinew/Pipeline/MethodSettings.h"
+
 #include <CLI/CLI.hpp>
 
 namespace sinew {
@@ -77,7 +79,11 @@ std::vector<Option> meshingOptions(MeshSettings& settings) {
       {.flags = "--method",
        .target = &settings.method,
        .help = "how the mesh is fitted to the surface",
-       .choices = {"optimization"}},
+       .choices = methodNames()},
+      {.flags = "--physics",
+       .target = &settings.physics,
+       .help = "an option of the methods with physics; keys and defaults: " + physicsHelp(),
+       .form = "KEY=VALUE"},
       {"--preserve-volume", &meshing.preserveVolume,
        "keep the volume of the level set within 0.1 % instead of 0.5 %"},
       {"--with-quality", &meshing.withQuality,
@@ -89,6 +95,14 @@ MeshTissuesOptions resolved(const MeshSettings& settings) {
   MeshTissuesOptions options = settings.meshing;
   options.sizes = parsePairs("--size", settings.sizes, &parseLength);
   options.smoothings = parsePairs("--smooth", settings.smoothings, &parseSmoothing);
+  options.method = parseMethod(settings.method);
+  for (const std::string& text : settings.physics) {
+    try {
+      setPhysics(text, options.method, options.physics);
+    } catch (const std::invalid_argument& error) {
+      throw CLI::ValidationError("--physics", error.what());
+    }
+  }
   return options;
 }
 

@@ -12,6 +12,7 @@ struct MeshSettings {
   std::vector<std::string> sizes;       ///< TISSUE=LENGTH
   std::vector<std::string> smoothings;  ///< TISSUE=HOW
   std::string method = "optimization";
+  std::vector<std::string> physics;  ///< KEY=VALUE
   ReadSegmentationOptions reading;
   MeshTissuesOptions meshing;
 };

@@ -125,6 +125,9 @@ TEST(BadRequest, UsageHasItsOwnExitCode) {
   refusal.expect({"--edge-length", "wide"}, 2, "'wide' is no length");
   refusal.expect({"--edge-lenght", "2"}, 2, "--edge-lenght");
   refusal.expect({"--method", "magic"}, 2, "optimization");
+  refusal.expect({"--physics", "drag=1"}, 2, "no effect on the method optimization");
+  refusal.expect({"--method", "springs", "--physics", "poisson=0.1"}, 2, "no effect on the method springs");
+  refusal.expect({"--method", "fem", "--physics", "poisson=0.6"}, 2, "poisson must be in (-1, 0.5)");
   refusal.expect({"--threads", "0"}, 2, "--threads");
   refusal.expect({"--size", "sphere"}, 2, "TISSUE=LENGTH");
   refusal.expect({"--config", (refusal.folder / "missing.toml").string()}, 2, "missing.toml");

@@ -175,6 +175,32 @@ TEST(MeshCommand, TheVolumeMayBePreserved) {
               0.001);
 }
 
+TEST(MeshCommand, MethodsWithPhysicsKeepTheirBoundsAndTheVolume) {
+  const TempFolder folder;
+  const fs::path torus = makePhantom(folder, "torus");
+  for (const std::string method : {"springs", "fem", "hybrid"}) {
+    SCOPED_TRACE(method);
+    ASSERT_EQ(run({"mesh", torus.string(), "-o", (folder / "out").string(), "--edge-length", "4", "--force",
+                   "--preserve-volume", "--method", method, "--physics", "drag=0.8"})
+                  .exitCode,
+              0);
+    const Json report = reportIn(folder);
+    EXPECT_EQ(report["options"]["method"], method);
+    EXPECT_EQ(report["options"]["physics"]["drag"], 0.8);
+    EXPECT_EQ(report["options"]["physics"].contains("poisson"), method != "springs");
+    const Json& tissue = report["tissues"][0];
+    EXPECT_GT(tissue["compression"]["physics"]["tets"], 0);
+    EXPECT_GT(tissue["compression"]["physics"]["velocity_steps"], 0);
+    EXPECT_LE(tissue["quality"]["max_aspect_ratio"], 5);
+    EXPECT_GE(tissue["quality"]["min_dihedral_deg"], 17);
+    EXPECT_LE(tissue["quality"]["max_dihedral_deg"], 147);
+    EXPECT_LT(tissue["fidelity"]["max_boundary_phi_mm"], 1e-3 * 4);
+    EXPECT_NEAR(tissue["fidelity"]["volume_mm3"].get<double>() /
+                    tissue["fidelity"]["level_set_volume_mm3"].get<double>(),
+                1, 0.001);
+  }
+}
+
 TEST(MeshCommand, AnUnderResolvedTissueIsToldTheOptionToChange) {
   const TempFolder folder;
   const fs::path sphere = makePhantom(folder, "sphere", {"--spacing", "4"});

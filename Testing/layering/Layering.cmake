@@ -8,7 +8,7 @@ set(below_Mesher)
 set(below_Elasticity Mesher)
 set(below_MeshIO Mesher)
 set(below_Repair Segmentation LevelSet Mesher MeshIO)
-set(below_Pipeline Segmentation LevelSet Mesher MeshIO)
+set(below_Pipeline Segmentation LevelSet Mesher Elasticity MeshIO)
 set(below_Simulation Mesher Elasticity)
 set(below_Applications ${modules})
 

@@ -26,13 +26,12 @@ AltitudeSprings::AltitudeSprings(const ElasticBody& body, const AltitudeSpringOp
     : body_(body), options_(options) {
   requireSound(options.springs);
   if (!(options.actsBelow > 0)) throw std::invalid_argument("altitude springs: actsBelow must be positive");
-  const double c = options.springs.soundSpeed;
   springs_.resize(body.tets.size());
   for (std::size_t t = 0; t < body.tets.size(); ++t)
     for (int corner = 0; corner < 4; ++corner) {
       const Altitude atRest = altitude(body.rest, body.tets[t], corner);
       const double m = springMass(body, body.tets[t], corner, atRest), length = atRest.height;
-      const double stiffness = c * c * m / (length * length);
+      const double stiffness = springRate(options.springs, m, length);
       springs_[t][static_cast<std::size_t>(corner)] = {
           length, stiffness, options.springs.damping * 2 * std::sqrt(stiffness * m)};
     }
@@ -83,6 +82,7 @@ void AltitudeSprings::addForces(const NodeVectors& places, NodeVectors& forces) 
 void AltitudeSprings::moveTo(const NodeVectors& places) { places_ = places; }
 
 void AltitudeSprings::addDamping(const NodeVectors& velocities, NodeVectors& forces) const {
+  if (options_.springs.damping == 0) return;
   addTetForces(
       body_,
       [&](std::size_t t) {

@@ -38,9 +38,9 @@ std::vector<std::array<int, 6>> tetsAroundEdges(const std::vector<Tet>& tets) {
 
 }  // namespace
 
-EdgeSprings::EdgeSprings(const ElasticBody& body, const SpringOptions& options) : body_(body) {
+EdgeSprings::EdgeSprings(const ElasticBody& body, const SpringOptions& options)
+    : body_(body), damping_(options.damping) {
   requireSound(options);
-  const double c = options.soundSpeed;
   const auto around = tetsAroundEdges(body.tets);
   springs_.resize(body.tets.size());
   for (std::size_t t = 0; t < body.tets.size(); ++t)
@@ -48,7 +48,7 @@ EdgeSprings::EdgeSprings(const ElasticBody& body, const SpringOptions& options) 
       const auto [a, b] = endsOf(body.tets[t], e);
       const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
       const double m = harmonicMean(body.masses[i], body.masses[j]), share = 1. / around[t][e];
-      const double length = (body.rest[j] - body.rest[i]).norm(), stiffness = c * c * m / (length * length);
+      const double length = (body.rest[j] - body.rest[i]).norm(), stiffness = springRate(options, m, length);
       springs_[t][e] = {length, share * stiffness, share * options.damping * 2 * std::sqrt(stiffness * m)};
     }
 }
@@ -105,6 +105,7 @@ void EdgeSprings::addForces(const NodeVectors& places, NodeVectors& forces) cons
 void EdgeSprings::moveTo(const NodeVectors& places) { places_ = places; }
 
 void EdgeSprings::addDamping(const NodeVectors& velocities, NodeVectors& forces) const {
+  if (damping_ == 0) return;
   addPulls(
       [&](std::size_t i, std::size_t j, const Spring& spring) -> Vector3d {
         const Vector3d u = (places_[j] - places_[i]).normalized();

@@ -46,6 +46,7 @@ DampingForces::DampingForces(const ElasticBody& body, Damping damping)
     : body_(body), damping_(damping), F_(body.tets.size(), Matrix3d::Identity()) {}
 
 void DampingForces::moveTo(const NodeVectors& places) {
+  if (damping_.alpha == 0 && damping_.beta == 0) return;
   forEachIndex(F_.size(), [&](std::size_t t) { F_[t] = deformationGradient(body_, places, t); });
 }
 

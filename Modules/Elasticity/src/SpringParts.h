@@ -14,6 +14,14 @@ namespace sinew {
 inline void requireSound(const SpringOptions& options) {
   if (!(options.soundSpeed > 0)) throw std::invalid_argument("springs: the sound speed must be positive");
   if (!(options.damping >= 0)) throw std::invalid_argument("springs: the damping must not be negative");
+  if (!(options.crossingTime >= 0))
+    throw std::invalid_argument("springs: the crossing time must not be negative");
+}
+
+/// k / l0 = c^2 m / l0^2, kg/s^2
+inline double springRate(const SpringOptions& options, double mass, double length) {
+  const double c = options.crossingTime > 0 ? length / options.crossingTime : options.soundSpeed;
+  return c * c * mass / (length * length);
 }
 
 inline double harmonicMean(double a, double b) { return 2 * a * b / (a + b); }

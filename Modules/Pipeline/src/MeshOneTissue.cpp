@@ -130,6 +130,11 @@ class TissueRun {
     return mesh;
   }
 
+  struct Made {
+    TetMesh mesh;
+    TissueCompression compression;
+  };
+
   /// A mesh in the level set's frame, and what it was made from.
   struct Attempt {
     TissuePlan plan;
@@ -137,7 +142,7 @@ class TissueRun {
     SmoothingReport smoothing;
     Eigen::Isometry3d frame;
     std::unique_ptr<LevelSetSurface> surface;
-    TetMesh mesh;
+    Made made;
   };
 
   /// @param share  of the tissue's work, for the progress
@@ -163,14 +168,14 @@ class TissueRun {
       throw std::runtime_error("the mesh would take about " + formatBytes(memory) + " of memory, but " +
                                formatBytes(availableMemory_) + " is available; use a larger edge length");
     advance("lattice", first);
-    attempt.mesh = generateOn(*attempt.surface, options);
+    attempt.made = generateOn(*attempt.surface, options);
     watch_.lap();
     done_ = last;
     return attempt;
   }
 
   static double volumeError(const Attempt& attempt) {
-    return std::abs(meshVolume(attempt.mesh) / attempt.volumes.levelSetVolume - 1);
+    return std::abs(meshVolume(attempt.made.mesh) / attempt.volumes.levelSetVolume - 1);
   }
   /// Without curvature and tolerance nothing is refined.
   bool losesThinParts(const Attempt& attempt) const {
@@ -182,7 +187,8 @@ class TissueRun {
   void refineThinParts(Attempt& attempt) {
     // Thin parts are sheets: their tets grow with the square of the refinement.
     const double finerBy = attempt.plan.sizes.smallest / attempt.plan.thinnest;
-    const double memory = kBytesPerTet * static_cast<double>(attempt.mesh.tets.size()) * finerBy * finerBy;
+    const double memory =
+        kBytesPerTet * static_cast<double>(attempt.made.mesh.tets.size()) * finerBy * finerBy;
     if (memory > availableMemory_) return;
 
     Attempt finer;
@@ -192,13 +198,13 @@ class TissueRun {
     GenerateTetMeshOptions options = mesherOptions(finer.plan);
     options.progress = [this](std::string_view, double) { advance("refining thin parts", kAfterMesh); };
     try {
-      finer.mesh = generateOn(*attempt.surface, options);
+      finer.made = generateOn(*attempt.surface, options);
     } catch (const std::exception&) {
       return;  // no mesh with smaller cubes: the one before stands
     }
     if (volumeError(finer) >= volumeError(attempt)) return;
     attempt.plan = finer.plan;
-    attempt.mesh = std::move(finer.mesh);
+    attempt.made = std::move(finer.made);
   }
 
   /// Meshes until one has the wanted number of tets; the best one.
@@ -220,7 +226,7 @@ class TissueRun {
         if (trials.empty()) throw;
         break;  // too much memory, or no mesh at this edge length: what was found before stands
       }
-      trials.push_back({plan.sizes.edge, std::ssize(attempt.mesh.tets)});
+      trials.push_back({plan.sizes.edge, std::ssize(attempt.made.mesh.tets)});
       if (bestTrial(trials, options_.targetTets) + 1 == trials.size()) best = std::move(attempt);
       edge = nextEdgeLength(trials, options_.targetTets);
     }
@@ -236,7 +242,8 @@ class TissueRun {
     plan_ = attempt.plan;
     report_.edgeLength = plan_.sizes.edge;
     report_.minEdgeLength = plan_.sizes.smallest;
-    TetMesh mesh = std::move(attempt.mesh);
+    TetMesh mesh = std::move(attempt.made.mesh);
+    report_.compression = attempt.made.compression;
     // Edges that bend to the level set keep its volume better than straight ones that are moved outwards.
     const bool bends = options_.writing.quadratic && !options_.preserveVolume;
     if (mesh.tets.empty() || bends) return mesh;
@@ -244,8 +251,8 @@ class TissueRun {
     const double area = boundaryArea(mesh);
     const OffsetTrial plain{0, meshVolume(mesh)};
     KeptVolume best = tryOffsets(plain, area, [&](double offset) {
-      TetMesh moved = mesh;
-      moved.nodes = moveBoundary(mesh, *surface_, offset);
+      Made moved{mesh, report_.compression};
+      moved.mesh.nodes = moveBoundary(mesh, *surface_, offset);
       return moved;
     });
     const VolumeRule& rule = volumeRule(options_.preserveVolume);
@@ -258,31 +265,33 @@ class TissueRun {
       if (bestTrial({best.trial, remeshed.trial}, wanted) == 1) best = std::move(remeshed);
     }
     surfaceOffset_ = best.trial.offset;
-    return best.trial.offset != 0 ? std::move(best.mesh) : std::move(mesh);
+    if (best.trial.offset == 0) return mesh;
+    report_.compression = best.made.compression;
+    return std::move(best.made.mesh);
   }
 
   /// The best of some meshes, and its volume; no mesh at offset 0.
   struct KeptVolume {
     OffsetTrial trial;
-    TetMesh mesh;
+    Made made;
   };
 
   /// @param meshAt  makes the mesh whose boundary lies at an offset, mm
   KeptVolume tryOffsets(const OffsetTrial& plain, double area,
-                        const std::function<TetMesh(double)>& meshAt) const {
+                        const std::function<Made(double)>& meshAt) const {
     const VolumeRule& rule = volumeRule(options_.preserveVolume);
     const double wanted = volumes_.levelSetVolume;
     std::vector<OffsetTrial> trials{plain};
     KeptVolume best{plain, {}};
     while (const auto offset = nextOffset(trials, wanted, area, plan_.sizes.edge, rule)) {
-      TetMesh mesh;
+      Made made;
       try {
-        mesh = meshAt(*offset);
+        made = meshAt(*offset);
       } catch (const std::exception&) {
         break;  // no mesh on the moved surface: the best so far stands
       }
-      trials.push_back({*offset, meshVolume(mesh)});
-      if (bestTrial(trials, wanted) + 1 == trials.size()) best = {trials.back(), std::move(mesh)};
+      trials.push_back({*offset, meshVolume(made.mesh)});
+      if (bestTrial(trials, wanted) + 1 == trials.size()) best = {trials.back(), std::move(made)};
     }
     return best;
   }
@@ -300,11 +309,15 @@ class TissueRun {
     return options;
   }
 
-  TetMesh generateOn(const SignedDistance& surface, const GenerateTetMeshOptions& options) {
+  Made generateOn(const SignedDistance& surface, GenerateTetMeshOptions options) {
+    Made made;
+    compressBy(options_.method, options_.physics, options, &made.compression.method);
     GenerateTetMeshReport mesher;
-    TetMesh mesh = generateTetMesh(surface, options, &mesher);
+    made.mesh = generateTetMesh(surface, options, &mesher);
+    made.compression.patchesTried = mesher.patchesTried;
+    made.compression.patchesMended = mesher.patchesMended;
     for (const auto& [stage, seconds] : mesher.stages) addSeconds(stage, seconds);
-    return mesh;
+    return made;
   }
 
   void measure(const TetMesh& mesh) {

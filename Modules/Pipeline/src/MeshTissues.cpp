@@ -58,6 +58,7 @@ void checkOptions(const MeshTissuesOptions& options) {
   if (options.targetTets < 0)
     throw std::invalid_argument("the number of tets is " + std::to_string(options.targetTets) +
                                 ", but must not be negative");
+  requireSound(options.physics);
 }
 
 /// How many tissues may be in flight, when the largest come first.

@@ -2,6 +2,7 @@
 
 #include "TopologyDifferences.h"
 #include "sinew/Pipeline/Memory.h"
+#include "sinew/Pipeline/MethodSettings.h"
 #include "sinew/Segmentation/TissueCentroid.h"
 
 #include <nlohmann/json.hpp>
@@ -97,6 +98,35 @@ Json toJsonObject(const QualityHistogram& histogram) {
           {"aspect_ratio", toJsonObject(kAspectRatioBins, histogram.aspectRatios)}};
 }
 
+/// Null where the method has no physics.
+Json toJsonObject(const PhysicsCompressionReport& physics) {
+  if (physics.tets == 0) return {};
+  return {{"tets", physics.tets},
+          {"force_steps", physics.forceSteps},
+          {"velocity_steps", physics.velocitySteps},
+          {"cg_iterations", physics.cgIterations},
+          {"max_phi_after_forces_edges", physics.maxPhiAfterForces},
+          {"max_phi_edges", physics.maxPhi},
+          {"kinetic_energy_share", physics.kineticEnergy},
+          {"converged", physics.converged},
+          {"nodes_left_behind", physics.leftBehind}};
+}
+
+Json toJsonObject(const TissueCompression& compression) {
+  return {{"physics", toJsonObject(compression.method.physics)},
+          {"tets_beyond_bounds", compression.method.mendedTets},
+          {"nodes_mended", compression.method.mendedNodes},
+          {"patches_tried", compression.patchesTried},
+          {"patches_mended", compression.patchesMended}};
+}
+
+Json toJsonObject(const std::vector<std::pair<std::string, PhysicsValue>>& settings) {
+  Json object = Json::object();
+  for (const auto& [key, value] : settings)
+    object[key] = std::visit([](const auto& plain) { return Json(plain); }, value);
+  return object;
+}
+
 Json toJsonObject(const TissueReport& report) {
   Json seconds = Json::object();
   for (const auto& [stage, time] : report.seconds) seconds[stage] = time;
@@ -121,6 +151,7 @@ Json toJsonObject(const TissueReport& report) {
           {"seconds", seconds},
           {"tets", report.quality.tets},
           {"nodes", report.quality.nodes},
+          {"compression", toJsonObject(report.compression)},
           {"quality", toJsonObject(report.quality)},
           {"worst", toJsonArray(report.worst)},
           {"conditions", toJsonObject(report.conditions)},
@@ -147,7 +178,8 @@ Json toJsonObject(const MeshTissuesOptions& options, double voxel) {
           {"curvature", options.curvature},
           {"tolerance_mm", options.tolerance.millimetres(voxel)},
           {"levels", options.levels},
-          {"method", "optimization"},
+          {"method", toString(options.method)},
+          {"physics", toJsonObject(physicsSettings(options.method, options.physics))},
           {"preserve_volume", options.preserveVolume},
           {"with_quality", options.withQuality},
           {"smoothing", toString(options.smoothing)},

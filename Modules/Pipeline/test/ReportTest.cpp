@@ -53,6 +53,7 @@ TEST(Report, HasTheFieldsThatReadersExpect) {
   const Json& tissue = json["tissues"][0];
   EXPECT_EQ(keys(tissue), (std::vector<std::string>{"color",
                                                     "combined_label",
+                                                    "compression",
                                                     "conditions",
                                                     "curved_edges",
                                                     "edge_length_mm",

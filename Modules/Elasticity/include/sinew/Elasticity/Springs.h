@@ -12,6 +12,7 @@ namespace sinew {
 struct SpringOptions {
   double soundSpeed = 1000;  ///< c, mm/s
   double damping = 0.1;      ///< 0: none, 1: critical
+  double crossingTime = 0;   ///< s; above 0, waves take this time along every spring: c = l0 / crossingTime
 };
 
 /// A linear spring along every edge of the mesh. Each tet holds its part of the stiffness of its edges.
@@ -38,6 +39,7 @@ class EdgeSprings final : public ForceModel {
   void addPulls(const Pull& pull, NodeVectors& forces) const;
 
   const ElasticBody& body_;
+  double damping_;
   std::vector<OfTet> springs_;
   NodeVectors places_;
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sinew/Elasticity/CompressionMethod.h"
 #include "sinew/LevelSet/LevelSetFromLabels.h"
 #include "sinew/LevelSet/ShapeMeasures.h"
 #include "sinew/MeshIO/WriteMesh.h"
@@ -32,9 +33,11 @@ struct MeshTissuesOptions {
   /// Choose the edge length of tissues without one in `sizes` for so many tets within 10 %; 0: off.
   /// Refinement then goes two levels down at most.
   std::int64_t targetTets = 0;
-  double curvature = 1.0;  ///< see GenerateTetMeshOptions
-  Length tolerance = 0;    ///< see GenerateTetMeshOptions; 0: off
-  int levels = 0;          ///< see GenerateTetMeshOptions
+  double curvature = 1.0;                                      ///< see GenerateTetMeshOptions
+  Length tolerance = 0;                                        ///< see GenerateTetMeshOptions; 0: off
+  int levels = 0;                                              ///< see GenerateTetMeshOptions
+  CompressionMethod method = CompressionMethod::Optimization;  ///< how the mesh is fitted to the surface
+  PhysicsCompressionOptions physics;                           ///< of the methods with physics
   /// Keep the level set's volume within 0.1 % instead of 0.5 %, by moving the boundary by a tenth of an edge
   /// length at most instead of a twentieth, and in up to three new meshings where that does not do.
   bool preserveVolume = false;
@@ -106,6 +109,13 @@ struct WorstElement {
   Eigen::Vector3d place;  ///< its centroid, LPS mm
 };
 
+/// How the mesh was fitted to the surface.
+struct TissueCompression {
+  CompressionMethodReport method;  ///< of the methods with physics
+  std::int64_t patchesTried = 0;   ///< see GenerateTetMeshReport
+  std::int64_t patchesMended = 0;  ///< see GenerateTetMeshReport
+};
+
 struct TissueReport {
   std::string name;
   std::string id;
@@ -120,6 +130,7 @@ struct TissueReport {
   double edgeLength = 0;                                ///< as taken for this tissue, mm
   double minEdgeLength = 0;                             ///< that refinement might make, mm
   std::vector<std::pair<std::string, double>> seconds;  ///< stage -> wall seconds, in order
+  TissueCompression compression;
   MeshQuality quality;
   std::vector<WorstElement> worst;  ///< up to kRankedTets of each measure, the worst first
   MeshConditions conditions;
