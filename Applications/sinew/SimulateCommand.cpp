@@ -220,6 +220,12 @@ Simulation runTrials(const CommandLine& line, const SimulateCommand& command, co
   return simulation;
 }
 
+/// Files that this run has not written: those of an older one are to go.
+std::vector<std::string> missingIn(const fs::path& folder, std::vector<std::string> names) {
+  std::erase_if(names, [&](const std::string& name) { return fs::exists(folder / name); });
+  return names;
+}
+
 std::string plotTitle(const SimulateCommand& command, const Simulation& simulation) {
   constexpr std::array kTitles{"Isometric contraction", "Compression", "Indentation", "Stretch", "Twist"};
   const std::string title = kTitles[static_cast<std::size_t>(command.trial.trial)];
@@ -247,7 +253,9 @@ int simulate(const CommandLine& line, SimulateCommand& command, const Choices& c
   simulation.seconds = secondsSince(start);
   const std::string report = toJson(command, simulation);
   writeTextFile(folder.temporary() / kReportName, report);
+  const std::vector<std::string> stale = missingIn(folder.temporary(), names.all(command.trial.frames));
   folder.commit();
+  for (const std::string& name : stale) fs::remove(fs::path(command.folder) / name);
 
   line.writeJson(report);
   if (std::ostream* stream = line.tables()) print(*stream, simulation);

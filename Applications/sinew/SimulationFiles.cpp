@@ -5,7 +5,6 @@
 #include "sinew/Pipeline/FileNames.h"
 
 #include <algorithm>
-#include <set>
 #include <stdexcept>
 
 namespace sinew {
@@ -25,15 +24,23 @@ std::string lastParts(const fs::path& path, std::size_t count) {
 }  // namespace
 
 std::vector<std::string> shortNames(const std::vector<std::string>& files) {
-  constexpr std::size_t kMostParts = 64;
-  std::vector<std::string> names(files.size());
-  for (std::size_t parts = 1; parts <= kMostParts; ++parts) {
-    std::ranges::transform(files, names.begin(), [&](const std::string& file) {
-      return lastParts(fs::absolute(file).lexically_normal(), parts);
-    });
-    if (std::set(names.begin(), names.end()).size() == names.size()) return names;
+  std::vector<fs::path> paths;
+  for (const std::string& file : files) paths.push_back(fs::absolute(file).lexically_normal());
+  std::vector<std::string> names;
+  for (const fs::path& path : paths) {
+    if (std::ranges::count(paths, path) > 1)
+      throw std::invalid_argument(path.string() + ": a mesh is given twice");
+    const auto shared = [&](std::size_t parts) {
+      const auto same = [&](const fs::path& other) {
+        return lastParts(other, parts) == lastParts(path, parts);
+      };
+      return std::ranges::count_if(paths, same) > 1;
+    };
+    std::size_t parts = 1;
+    while (shared(parts)) ++parts;
+    names.push_back(lastParts(path, parts));
   }
-  throw std::invalid_argument(names.front() + ": a mesh is given twice");
+  return names;
 }
 
 std::vector<std::string> stemsOf(const std::vector<std::string>& names) {

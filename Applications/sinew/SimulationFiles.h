@@ -7,7 +7,7 @@
 
 namespace sinew {
 
-/// Names for people: the last parts of the paths, as many as it takes to tell the meshes apart.
+/// Names for people: the last parts of each path, as many as it takes to tell it from the others.
 /// @throws std::invalid_argument when a mesh is given twice
 std::vector<std::string> shortNames(const std::vector<std::string>& files);
 

@@ -16,6 +16,8 @@ TEST(Program, HelpAndVersionAreResults) {
                                 {"mesh", "--help"},
                                 {"info", "-h"},
                                 {"quality", "--help"},
+                                {"fibres", "--help"},
+                                {"simulate", "--help"},
                                 {"phantom", "--help"},
                                 {"repair", "--help"},
                                 {"phantom", "--list"},

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 
 namespace sinew::test {
 namespace {
@@ -134,8 +135,10 @@ TEST_F(FibresCommand, ErrorsSayWhatAndWhere) {
             at("bar.vtu") + ": --origin ulna: neither a mesh file, a tissue of this mesh, nor a box");
   EXPECT_EQ(refusal({at("bar.vtu"), "--insertion", "box:1,2,3"}),
             at("bar.vtu") + ": --insertion box:1,2,3: a box is box:X,Y,Z,X,Y,Z, two corners in mm");
-  EXPECT_EQ(refusal({at("bar.vtu"), "--origin", "box:0,0,0,4,4,12"}),
-            at("bar.vtu") + ": origin and insertion share 50 nodes; choose attachments that lie apart");
+  EXPECT_EQ(
+      refusal({at("bar.vtu"), "--origin", "box:0,0,0,4,4,12"}),
+      at("bar.vtu") +
+          ": origin and insertion share 50 nodes; choose attachments that lie apart, or that reach less far");
   EXPECT_EQ(refusal({at("bar.vtu"), "--ends", "0.6"}),
             "--ends: a share of 0.6; it must be above 0 and below 0.5");
   EXPECT_EQ(refusal({at("both.vtu")}),
@@ -239,6 +242,30 @@ TEST_F(SimulateCommand, TheFilesAreTheSameForAnyNumberOfThreads) {
         0);
   for (const char* name : {"indent.csv", "indent-001.vtu", "indent.svg"})
     EXPECT_EQ(readBytes(folder_ / "1" / name), readBytes(folder_ / "3" / name)) << name;
+}
+
+TEST_F(SimulateCommand, ATrialThatStopsEarlyFailsAndIsWritten) {
+  fs::create_directory(folder_ / "out");
+  writeBytes(folder_ / "out" / "twist-002.vtu", "of an older run");
+  const ProgramResult result =
+      run({"simulate", at("bar.vtu"), "--twist", "3600", "--frames", "2", "-o", at("out"), "--force"});
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_EQ(result.err, "");
+  EXPECT_TRUE(result.out.starts_with("bar.vtu: twist stops at ")) << result.out;
+  EXPECT_EQ(namesIn(folder_ / "out"), (std::vector<std::string>{"report.json", "twist-000.vtu", "twist.csv",
+                                                                "twist.pvd", "twist.svg"}));
+  const Json report = Json::parse(readBytes(folder_ / "out" / "report.json"));
+  EXPECT_FALSE(report["meshes"][0]["completed"]);
+  EXPECT_EQ(countElements(folder_ / "out" / "twist.svg", "path"), 6) << "crosses where it stops";
+}
+
+TEST_F(SimulateCommand, AnInterruptLeavesNothing) {
+  Program program({"simulate", at("bar.vtu"), "--contract", "--tendon", "0.2", "--frames", "2000", "-o",
+                   at("out"), "--verbose"});
+  ASSERT_TRUE(program.waitFor("bar.vtu: contract"));
+  program.signal(SIGINT);
+  EXPECT_EQ(program.wait().exitCode, 130);
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
 }
 
 TEST_F(SimulateCommand, ErrorsSayWhatAndWhere) {

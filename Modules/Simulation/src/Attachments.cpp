@@ -102,7 +102,7 @@ void checkApart(const Attachments& attachments) {
   std::ranges::set_intersection(origin, insertion, std::back_inserter(both));
   if (!both.empty())
     throw std::invalid_argument("origin and insertion share " + std::to_string(both.size()) +
-                                " nodes; choose attachments that lie apart");
+                                " nodes; choose attachments that lie apart, or that reach less far");
 }
 
 std::vector<double> tendonShares(const TetMesh& mesh, const Attachments& attachments, double share) {

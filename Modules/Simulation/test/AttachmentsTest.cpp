@@ -102,7 +102,7 @@ TEST(Attachments, MayNotOverlap) {
   EXPECT_EQ(messageOf([] {
               checkApart({{3, 1, 2}, {2, 5, 3}});
             }),
-            "origin and insertion share 2 nodes; choose attachments that lie apart");
+            "origin and insertion share 2 nodes; choose attachments that lie apart, or that reach less far");
 }
 
 TEST(Attachments, TendonsFallToZeroAwayFromTheEnds) {
