@@ -1,5 +1,6 @@
 #include "sinew/Simulation/MeshTrial.h"
 
+#include "TetMiddle.h"
 #include "TrialChecks.h"
 #include "TrialMarch.h"
 #include "TrialVerdict.h"
@@ -42,10 +43,7 @@ class Gauge {
 
  private:
   TrialSpot spot(std::int64_t tet) const {
-    TrialSpot result{.tet = tet};
-    for (const std::int32_t node : body_.tets[static_cast<std::size_t>(tet)])
-      result.place += body_.rest[static_cast<std::size_t>(node)] / 4;
-    return result;
+    return {.tet = tet, .place = tetMiddle(body_.rest, body_.tets[static_cast<std::size_t>(tet)])};
   }
 
   TetMesh mesh_;
@@ -63,10 +61,11 @@ TrialReport runTrial(const TetMesh& mesh, const TrialSetup& setup, const TrialOp
   checkSetup(mesh, setup, options);
   const ElasticBody body = elasticBody(mesh);
   TrialLoad load(mesh, body, setup, options);
-  checkHold(body, load.constraints());
   TrialMarch march(body, load, options);
   Gauge gauge(mesh, body);
   TrialReport report;
+  report.loosePieces = load.loosePieces().pieces;
+  report.looseTets = load.loosePieces().tets;
   const double full = options.amount.value_or(usualAmount(options.trial));
   for (int k = 0; k <= options.frames; ++k) {
     if (k > 0 && !march.advance(full * heightOf(k, options.frames))) {

@@ -1,5 +1,6 @@
 #include "TrialChecks.h"
 
+#include "TetMiddle.h"
 #include "TrialText.h"
 
 #include <Eigen/Geometry>
@@ -17,12 +18,6 @@ void require(bool condition, const std::string& what) {
   if (!condition) throw std::invalid_argument("runTrial: " + what);
 }
 
-Vector3d middleOf(const std::vector<Vector3d>& nodes, const Tet& tet) {
-  Vector3d sum = Vector3d::Zero();
-  for (const std::int32_t node : tet) sum += nodes[static_cast<std::size_t>(node)];
-  return sum / 4;
-}
-
 void checkTets(const TetMesh& mesh) {
   std::size_t bad = 0, first = 0;
   for (std::size_t t = mesh.tets.size(); t-- > 0;) {
@@ -36,7 +31,7 @@ void checkTets(const TetMesh& mesh) {
   require(!mesh.tets.empty(), "the mesh has no tets");
   if (bad > 0)
     require(false, std::to_string(bad) + " tets are flat or inverted at rest, the first is tet " +
-                       std::to_string(first) + " near " + placeText(middleOf(mesh.nodes, mesh.tets[first])));
+                       std::to_string(first) + " near " + placeText(tetMiddle(mesh.nodes, mesh.tets[first])));
 }
 
 /// 0 for free nodes, 1 at the origin, 2 at the insertion.
@@ -65,7 +60,7 @@ void checkAttachments(const TetMesh& mesh, const Attachments& attachments) {
     int ends = 0;
     for (const std::int32_t node : mesh.tets[t]) ends |= end[static_cast<std::size_t>(node)];
     require(ends != 3, "the ends touch: tet " + std::to_string(t) + " near " +
-                           placeText(middleOf(mesh.nodes, mesh.tets[t])) +
+                           placeText(tetMiddle(mesh.nodes, mesh.tets[t])) +
                            " has nodes of both; make the ends smaller or the mesh finer");
   }
 }
@@ -80,25 +75,8 @@ void checkFibres(const TetMesh& mesh, const TrialSetup& setup) {
   constexpr double kUnit = 1e-6;
   for (std::size_t t = 0; t < setup.fibres.size(); ++t)
     require(std::abs(setup.fibres[t].norm() - 1) < kUnit, "the fibre of tet " + std::to_string(t) + " near " +
-                                                              placeText(middleOf(mesh.nodes, mesh.tets[t])) +
+                                                              placeText(tetMiddle(mesh.nodes, mesh.tets[t])) +
                                                               " is no unit vector");
-}
-
-/// All nodes that tets connect with the `front`.
-void flood(const ElasticBody& body, std::vector<std::size_t> front, std::vector<bool>& reached) {
-  for (const std::size_t n : front) reached[n] = true;
-  while (!front.empty()) {
-    const std::size_t n = front.back();
-    front.pop_back();
-    for (std::int32_t k = body.firstCorner[n]; k < body.firstCorner[n + 1]; ++k)
-      for (const std::int32_t other :
-           body.tets[static_cast<std::size_t>(body.corners[static_cast<std::size_t>(k)] / 4)]) {
-        const auto node = static_cast<std::size_t>(other);
-        if (reached[node]) continue;
-        reached[node] = true;
-        front.push_back(node);
-      }
-  }
 }
 
 }  // namespace
@@ -137,29 +115,6 @@ void checkSetup(const TetMesh& mesh, const TrialSetup& setup, const TrialOptions
   checkTets(mesh);
   checkAttachments(mesh, setup.attachments);
   if (options.trial == Trial::Contract) checkFibres(mesh, setup);
-}
-
-void checkHold(const ElasticBody& body, const NodeConstraints& constraints) {
-  std::vector<std::size_t> held;
-  for (std::size_t n = 0; n < body.nodeCount(); ++n)
-    if (constraints.freedom[n] == NodeFreedom::Held) held.push_back(n);
-  std::vector<bool> reached(body.nodeCount(), false);
-  flood(body, held, reached);
-  std::size_t pieces = 0, tets = 0;
-  std::optional<std::size_t> first;
-  const auto loose = [&](std::size_t t) { return !reached[static_cast<std::size_t>(body.tets[t][0])]; };
-  for (std::size_t t = 0; t < body.tets.size(); ++t) tets += loose(t) ? 1 : 0;
-  for (std::size_t t = 0; t < body.tets.size(); ++t) {
-    if (!loose(t)) continue;
-    if (!first) first = t;
-    ++pieces;
-    flood(body, {static_cast<std::size_t>(body.tets[t][0])}, reached);
-  }
-  if (first)
-    require(false, "nothing holds " + std::to_string(pieces) + " pieces of the mesh, together " +
-                       std::to_string(tets) + " tets, the first near " +
-                       placeText(middleOf(body.rest, body.tets[*first])) +
-                       "; remove them, or let an end reach them");
 }
 
 }  // namespace sinew

@@ -1,13 +1,18 @@
 #include "TrialLoad.h"
 
 #include "Indenter.h"
+#include "TetMiddle.h"
+#include "TrialText.h"
 #include "sinew/Elasticity/ElasticForces.h"
 #include "sinew/Elasticity/HarmonicField.h"
 
 #include <Eigen/Geometry>
 #include <tbb/parallel_for.h>
 
+#include <iterator>
 #include <numbers>
+#include <stdexcept>
+#include <string>
 
 namespace sinew {
 namespace {
@@ -29,7 +34,7 @@ std::unique_ptr<Material> materialOf(const TrialSetup& setup, const TrialOptions
   return neoHookean({.mu = mu, .lambda = options.tissue.bulk - 2. / 3 * mu});
 }
 
-Vector3d middleOf(const NodeVectors& places, const std::vector<std::int32_t>& nodes) {
+Vector3d meanPlace(const NodeVectors& places, const std::vector<std::int32_t>& nodes) {
   Vector3d sum = Vector3d::Zero();
   for (const std::int32_t node : nodes) sum += places[static_cast<std::size_t>(node)];
   return sum / static_cast<double>(nodes.size());
@@ -44,6 +49,7 @@ TrialLoad::TrialLoad(const TetMesh& mesh, const ElasticBody& body, const TrialSe
     pushPatch(mesh, body, setup.attachments, options);
   else
     moveEnds(body, setup.attachments, options);
+  holdLoosePieces(body);
 }
 
 void TrialLoad::hold(const std::vector<std::int32_t>& nodes, double share, std::vector<double>& shares) {
@@ -53,20 +59,35 @@ void TrialLoad::hold(const std::vector<std::int32_t>& nodes, double share, std::
   }
 }
 
+void TrialLoad::holdLoosePieces(const ElasticBody& body) {
+  loose_ = findLoosePieces(body, constraints_);
+  if (2 * loose_.tets > std::ssize(body.tets))
+    throw std::invalid_argument(
+        "runTrial: nothing holds " + std::to_string(loose_.tets) + " of the " +
+        std::to_string(body.tets.size()) + " tets, the first near " +
+        placeText(tetMiddle(body.rest, body.tets[static_cast<std::size_t>(loose_.firstTet)])) +
+        "; let the ends be on the largest piece of the mesh");
+  hold(loose_.nodes, 0, share_);
+}
+
 void TrialLoad::moveEnds(const ElasticBody& body, const Attachments& ends, const TrialOptions& options) {
+  if (!areConnected(body, ends.origin, ends.insertion))
+    throw std::invalid_argument(
+        "runTrial: no piece of the mesh reaches from the origin to the insertion; let both be on its largest "
+        "piece");
   std::vector<double> shares(body.nodeCount(), kWanted);
   hold(ends.origin, 0, shares);
   hold(ends.insertion, 1, shares);
   share_ = trial_ == Trial::Contract ? shares : harmonicField(body, shares);
-  onAxis_ = middleOf(body.rest, ends.origin);
-  const Vector3d way = middleOf(body.rest, ends.insertion) - onAxis_;
+  onAxis_ = meanPlace(body.rest, ends.origin);
+  const Vector3d way = meanPlace(body.rest, ends.insertion) - onAxis_;
   axis_ = options.axis.value_or(way).normalized();
   shift_ = way.dot(axis_) * axis_ * (trial_ == Trial::Compress ? -1 : 1);
 }
 
 void TrialLoad::pushPatch(const TetMesh& mesh, const ElasticBody& body, const Attachments& ends,
                           const TrialOptions& options) {
-  const Vector3d start = middleOf(body.rest, ends.origin), end = middleOf(body.rest, ends.insertion);
+  const Vector3d start = meanPlace(body.rest, ends.origin), end = meanPlace(body.rest, ends.insertion);
   const Vector3d axis = options.axis.value_or(end - start).normalized();
   const Indenter indenter = placeIndenter(mesh, (start + end) / 2, axis, options.push);
   std::vector<double> shares(body.nodeCount(), kWanted);

@@ -3,11 +3,20 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 namespace sinew {
 namespace {
 
 constexpr int kNewtonSteps = 40;  // more say that there is no balance nearby
+
+/// That a tet of the mean size gives a node at a shear strain of 1e-4: below it, forces are about rounding.
+double leastForceOf(const ElasticBody& body, double shear) {
+  constexpr double kLeastStrain = 1e-4;
+  const double volume = std::accumulate(body.volumes.begin(), body.volumes.end(), 0.);
+  return kLeastStrain * shear * std::pow(volume / static_cast<double>(body.tets.size()), 2. / 3);
+}
 
 }  // namespace
 
@@ -16,7 +25,9 @@ TrialMarch::TrialMarch(const ElasticBody& body, TrialLoad& load, const TrialOpti
       load_(load),
       tolerance_(options.tolerance),
       halvings_(options.halvings),
-      places_(body.rest) {}
+      places_(body.rest),
+      largestForce_(leastForceOf(
+          body, options.trial == Trial::Contract ? options.muscle.shear : options.tissue.shear)) {}
 
 bool TrialMarch::advance(double amount, int halvings) {
   if (step(amount)) return true;

@@ -43,7 +43,7 @@ class TrialMarch {
   double amount_ = 0;
   NodeVectors places_;
   std::optional<Balance> before_;
-  double largestForce_ = 0, residual_ = 0;
+  double largestForce_, residual_ = 0;
   int newtonSteps_ = 0, cgIterations_ = 0;
 };
 

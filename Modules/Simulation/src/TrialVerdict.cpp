@@ -46,6 +46,12 @@ std::string growthText(const TrialReport& report) {
          fixedText(report.leastDihedralDeg, 1) + " deg";
 }
 
+std::string looseText(const TrialReport& report) {
+  if (report.loosePieces == 0) return {};
+  return "; " + std::to_string(report.looseTets) + " tets in " + std::to_string(report.loosePieces) +
+         (report.loosePieces == 1 ? " piece" : " pieces") + " that nothing holds stood still";
+}
+
 }  // namespace
 
 std::string_view trialName(Trial trial) { return row(trial).name; }
@@ -69,7 +75,7 @@ void judge(const TrialOptions& options, TrialReport& report) {
   report.growth = worst / first.maxAspectRatio - 1;
   const TrialRow& trial = row(options.trial);
   report.verdict = (report.completed ? text(trial.noun) + " completes" : stopText(trial, report)) +
-                   (report.completed ? ": " : "; ") + growthText(report);
+                   (report.completed ? ": " : "; ") + growthText(report) + looseText(report);
 }
 
 }  // namespace sinew

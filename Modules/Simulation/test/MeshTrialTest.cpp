@@ -66,6 +66,16 @@ struct Uniaxial {
   }
 };
 
+/// And a bar apart from it.
+TetMesh withAnotherBar(TetMesh mesh, const Eigen::Vector3i& cubes) {
+  const auto first = static_cast<std::int32_t>(mesh.nodes.size());
+  const TetMesh other = test::barMesh(cubes, 1);
+  for (const Vector3d& node : other.nodes) mesh.nodes.push_back(node + Vector3d(9, 0, 0));
+  for (const Tet& tet : other.tets)
+    mesh.tets.push_back({tet[0] + first, tet[1] + first, tet[2] + first, tet[3] + first});
+  return mesh;
+}
+
 TEST(MeshTrial, StartsAtRestAndHasItsFramesEvenlyInTime) {
   const TetMesh mesh = test::barMesh({1, 1, 3}, 1);
   const Recorded trial(mesh, setupOfBar(mesh), {.duration = 3, .frames = 6});
@@ -288,14 +298,31 @@ TEST(MeshTrial, RefusesMeshesThatCannotBeHeld) {
   says(refusal(inverted, good), "2 tets are flat or inverted at rest, the first is tet 4 near (");
   says(refusal({}, good), "the mesh has no tets");
 
-  TetMesh pieces = mesh;
-  for (const Vector3d& node : test::barMesh({1, 1, 1}, 1).nodes)
-    pieces.nodes.push_back(node + Vector3d(5, 0, 0));
-  for (const Tet& tet : test::barMesh({1, 1, 1}, 1).tets)
-    pieces.tets.push_back({tet[0] + 16, tet[1] + 16, tet[2] + 16, tet[3] + 16});
+  const TetMesh pieces = withAnotherBar(mesh, {1, 1, 4});
   TrialSetup forPieces = good;
   forPieces.fibres.assign(pieces.tets.size(), Vector3d::UnitZ());
-  says(refusal(pieces, forPieces), "nothing holds 1 pieces of the mesh, together 6 tets, the first near (5.");
+  says(refusal(pieces, forPieces), "nothing holds 24 of the 42 tets, the first near (9.");
+  forPieces.attachments.insertion = {20};  // of the other bar
+  says(refusal(pieces, forPieces), "no piece of the mesh reaches from the origin to the insertion");
+}
+
+TEST(MeshTrial, SmallPiecesThatNothingHoldsStandStill) {
+  const TetMesh mesh = test::spindleMesh({2, 2, 6}, 1), pieces = withAnotherBar(mesh, {1, 1, 1});
+  for (const Trial trial : kTrials) {
+    TrialSetup setup = setupOfBar(mesh);
+    setup.fibres.assign(pieces.tets.size(), Vector3d::UnitZ());
+    const Recorded done(pieces, setup, {.trial = trial, .frames = 2});
+    EXPECT_TRUE(done.report.completed) << done.report.verdict;
+    EXPECT_EQ(done.report.loosePieces, trial == Trial::Indent ? 0 : 1)
+        << trialName(trial);  // else in the bed
+    if (trial == Trial::Indent) continue;
+    EXPECT_EQ(done.report.looseTets, 6);
+    EXPECT_NE(done.report.verdict.find("; 6 tets in 1 piece that nothing holds stood still"),
+              std::string::npos);
+    for (std::size_t n = mesh.nodes.size(); n < pieces.nodes.size(); ++n)
+      EXPECT_EQ(done.places[1][n], pieces.nodes[n]);
+    EXPECT_TRUE(std::isfinite(done.report.frames[1].force));
+  }
 }
 
 TEST(MeshTrial, RefusesOptionsOutOfRange) {

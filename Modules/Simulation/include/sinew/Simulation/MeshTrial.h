@@ -91,6 +91,7 @@ struct TrialReport {
   double leastVolumeRatio = 1;     ///< of all frames and tets
   double leastDihedralDeg = 0, largestDihedralDeg = 0;  ///< of all frames and tets
   TrialSpot worst;                                      ///< of the largest aspect ratio of all frames
+  std::int64_t loosePieces = 0, looseTets = 0;          ///< of the mesh that nothing holds: they stood still
   std::optional<double> stoppedAt;  ///< the last amount in balance, of a trial that stopped
 };
 
@@ -104,7 +105,7 @@ using OnTrialFrame = std::function<void(const TrialFrame&, const NodeVectors& pl
 /// @return with completed = false, and the frames up to there, when a step finds no balance
 ///
 /// @throws std::invalid_argument for tets that are flat or inverted; ends that are missing, touch or name
-/// nodes the mesh has not; pieces of the mesh that nothing holds; fibres of the wrong number or length;
+/// nodes the mesh has not; pieces that nothing holds with most of the tets; fibres of the wrong number or length;
 /// options out of range
 ///
 /// Cost: frames times some Newton steps. Same bits for any number of threads.
