@@ -37,8 +37,8 @@ std::map<std::int32_t, std::int64_t> tetsByLabel(const TetMesh& mesh) {
 }
 
 /// A mesh in which every label has a region with a name: that of its file where it had none.
-TissueMesh readNamed(const std::string& file) {
-  TissueMesh mesh = readMesh(file);
+TissueMesh readNamed(const std::string& file, const ReadMeshOptions& reading) {
+  TissueMesh mesh = readMesh(file, reading);
   for (const auto& [label, count] : tetsByLabel(mesh.mesh))
     if (std::ranges::count(mesh.regions, label, &TissueRegion::label) == 0)
       mesh.regions.push_back({label, {}});
@@ -79,11 +79,12 @@ class Repetitions {
   int count_ = 0;
 };
 
-TissueMesh readAll(const CommandLine& line, const std::vector<std::string>& files) {
+TissueMesh readAll(const CommandLine& line, const std::vector<std::string>& files,
+                   const ReadMeshOptions& reading) {
   std::vector<TissueMesh> meshes;
   Repetitions repetitions;
   for (const std::string& file : files) {
-    meshes.push_back(readNamed(file));
+    meshes.push_back(readNamed(file, reading));
     repetitions.add(file, meshes.back());
   }
   line.warn(repetitions.warning());
@@ -138,7 +139,8 @@ std::string convertMeshes(const CommandLine& line, const ConvertCommand& command
   const std::string target = outputOf(command);
   checkMeshFiles(command.files, fs::path(target).filename().string());
   checkOutputFile(target, line.common.force);
-  TissueMesh mesh = readAll(line, command.inputs);
+  const MeshFormat* format = findMeshFormat(fs::path(target).filename().string());
+  TissueMesh mesh = readAll(line, command.inputs, {.cellArrays = format->arrays});
   std::optional<CurvedBoundary> curved;
   if (options.quadratic) {
     curved = curveBoundary(mesh.mesh);

@@ -21,6 +21,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kReportName = "report.json";
+constexpr int kMostFrames = 9999;
 
 double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -240,6 +241,9 @@ int simulate(const CommandLine& line, SimulateCommand& command, const Choices& c
   if (command.meshes.size() > 1 && !command.compare)
     throw CLI::ValidationError(
         "MESH", std::to_string(command.meshes.size()) + " meshes; add --compare to compare them");
+  if (command.trial.frames > kMostFrames)
+    throw CLI::ValidationError(
+        "--frames", std::to_string(command.trial.frames) + "; at most " + std::to_string(kMostFrames));
   const std::vector<std::string> meshNames = shortNames(command.meshes);
   const OutputNames names = outputNames(command, meshNames);
   checkOutputFolder(command.folder, names.all(command.trial.frames), line.common.force);

@@ -120,6 +120,15 @@ TEST_F(FibresCommand, FollowASplineInTheFilesSpace) {
   EXPECT_NEAR(values[2], 2 / std::sqrt(5.), 1e-6);
 }
 
+TEST_F(FibresCommand, StayWhenTheMeshIsConverted) {
+  ASSERT_EQ(run({"fibres", at("bar.vtu"), "-o", at("f.vtu"), "--ends", "0.2"}).exitCode, 0);
+  ASSERT_EQ(run({"convert", at("f.vtu"), at("g.vtk"), "--space", "RAS"}).exitCode, 0);
+  const auto fibres = [&](const char* name) {
+    return cellArray(readMesh(at(name), {.cellArrays = true}), "fibres").values;
+  };
+  EXPECT_EQ(fibres("g.vtk"), fibres("f.vtu"));
+}
+
 TEST_F(FibresCommand, ErrorsSayWhatAndWhere) {
   writeMesh(block(15), folder_ / "far.vtu");
   writeMesh(barAndBlock(), folder_ / "both.vtu");
@@ -280,6 +289,7 @@ TEST_F(SimulateCommand, ErrorsSayWhatAndWhere) {
   EXPECT_EQ(refusal({"--twist", at("bar.vtu")}, 2),
             "--twist: '" + at("bar.vtu") + "' is no amount above 0; meshes stand before the option");
   EXPECT_EQ(refusal({"--twist"}, 2), "MESH is required");
+  EXPECT_EQ(refusal({at("bar.vtu"), "--twist", "--frames", "100000"}, 2), "--frames: 100000; at most 9999");
   EXPECT_EQ(refusal({at("bar.vtu"), at("b.vtu"), "--twist"}, 2),
             "MESH: 2 meshes; add --compare to compare them");
   EXPECT_EQ(refusal({at("bar.vtu"), at("bar.vtu"), "--compare", "--twist"}, 1),
