@@ -17,7 +17,12 @@ trap 'rm -rf -- "$work"' EXIT
 "$sinew" simulate "$work/muscle/fibres.vtu" --contract --output "$work/contraction"
 cp "$work/upper-arm/humerus.vtu" "$work/muscle/humerus.vtu"
 cp "$work/contraction/contract-020.vtu" "$work/muscle/contracted.vtu"
-sed 's/ of fibres.vtu/ of the biceps/' "$work/contraction/contract.svg" >"$docs/contract.svg"
+for method in optimization springs fem hybrid; do
+  "$sinew" mesh "$work/upper-arm.seg.nrrd" --output "$work/methods/$method" --tissue biceps --edge-length 2 --curvature 0 \
+    --method "$method"
+done
+"$sinew" simulate "$work"/methods/*/biceps.vtu --compare --contract --tendon 0.1 --no-series --output "$work/compared"
+cp "$work/compared/contract.svg" "$docs/contract.svg"
 for phantom in drilled-femur gapped-muscle torn-vessel speckled-liver overlapping-muscles; do
   "$sinew" phantom "$phantom" --output "$work/$phantom.seg.nrrd"
   "$sinew" repair "$work/$phantom.seg.nrrd" "$docs/../Data/$phantom.lua" --output "$work/$phantom-repaired.seg.nrrd"

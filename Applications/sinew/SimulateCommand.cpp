@@ -200,6 +200,12 @@ class MeshRun {
   std::size_t done_, all_;
 };
 
+/// `runTrial: what` as `what`: its name says nothing to people.
+std::string withoutFunction(const std::string& message) {
+  constexpr std::string_view kName = "runTrial: ";
+  return message.starts_with(kName) ? message.substr(kName.size()) : message;
+}
+
 Simulation runTrials(const CommandLine& line, const SimulateCommand& command, const OutputNames& names,
                      const std::vector<std::string>& meshNames, const fs::path& folder) {
   Simulation simulation;
@@ -214,7 +220,7 @@ Simulation runTrials(const CommandLine& line, const SimulateCommand& command, co
       TrialReport report = MeshRun(command, mesh, display, i, command.meshes.size()).run(folder, stem);
       simulation.trials.push_back({mesh.name, std::move(report)});
     } catch (const std::invalid_argument& error) {
-      throw std::runtime_error(mesh.file + ": " + error.what());
+      throw std::runtime_error(mesh.file + ": " + withoutFunction(error.what()));
     }
     simulation.meshes.push_back(std::move(mesh));
   }

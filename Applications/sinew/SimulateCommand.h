@@ -3,6 +3,7 @@
 #include "TissueFibres.h"
 #include "sinew/Simulation/TrialTable.h"
 
+#include <ostream>
 #include <string>
 #include <vector>
 

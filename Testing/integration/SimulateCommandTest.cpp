@@ -296,6 +296,8 @@ TEST_F(SimulateCommand, ErrorsSayWhatAndWhere) {
             at("bar.vtu") + ": a mesh is given twice");
   EXPECT_EQ(refusal({at("bar.vtu"), "--twist", "--ends", "0"}, 1),
             "--ends: a share of 0; it must be above 0 and below 0.5");
+  EXPECT_EQ(refusal({at("bar.vtu"), "--compress", "1.2"}, 1),
+            at("bar.vtu") + ": the amount is 1.200, but must be a share in (0, 1)");
   EXPECT_FALSE(fs::exists(folder_ / "out"));
 
   writeBytes(folder_ / "twist.csv", "older");
