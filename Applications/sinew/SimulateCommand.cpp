@@ -180,6 +180,7 @@ class MeshRun {
       TissueFibres fibres = fibresOf(input, setup.attachments, command_.fibres, OwnFibres::Take);
       mesh_.fibres = fibres.source;
       setup.fibres = std::move(fibres.directions);
+      if (fibres.missing > 0) fillLoosePieces(setup.fibres, longAxis(input.tissue.mesh));
       setup.tendons = std::move(fibres.tendons);
     }
     mesh_.tissue = input.tissue.regions.front().name;
@@ -188,6 +189,12 @@ class MeshRun {
     mesh_.originNodes = std::ssize(setup.attachments.origin);
     mesh_.insertionNodes = std::ssize(setup.attachments.insertion);
     return setup;
+  }
+
+  /// A small piece that no attachment reaches has no fibres, and does not move: any direction will do.
+  static void fillLoosePieces(NodeVectors& fibres, const Eigen::Vector3d& axis) {
+    for (Eigen::Vector3d& fibre : fibres)
+      if (fibre.isZero()) fibre = axis;
   }
 
   void show(const std::string& stage, double share) {

@@ -32,6 +32,8 @@ Json toJson(const SimulatedMesh& mesh, const TrialReport& report) {
   json["min_dihedral_deg"] = report.leastDihedralDeg;
   json["max_dihedral_deg"] = report.largestDihedralDeg;
   json["worst"] = toJson(report.worst);
+  json["loose_pieces"] = report.loosePieces;
+  json["loose_tets"] = report.looseTets;
   json["frames"] = report.frames.size();
   json["seconds"] = mesh.seconds;
   json["series"] = mesh.series;

@@ -253,6 +253,19 @@ TEST_F(SimulateCommand, TheFilesAreTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(readBytes(folder_ / "1" / name), readBytes(folder_ / "3" / name)) << name;
 }
 
+TEST_F(SimulateCommand, ALooseSpeckIsHeldStill) {
+  TissueMesh mesh = bar();
+  const auto first = static_cast<std::int32_t>(mesh.mesh.nodes.size());
+  for (const Eigen::Vector3d& x : {Eigen::Vector3d(0, 0, 0), {0.1, 0, 0}, {0, 0.1, 0}, {0, 0, 0.1}})
+    mesh.mesh.nodes.push_back(x + Eigen::Vector3d(6, 0, 6));
+  mesh.mesh.tets.push_back({first, first + 1, first + 2, first + 3});
+  mesh.mesh.labels.push_back(1);
+  writeMesh(mesh, folder_ / "speck.vtu");
+  const ProgramResult result =
+      run({"simulate", at("speck.vtu"), "--contract", "--tendon", "0.2", "--frames", "2", "-o", at("out")});
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+}
+
 TEST_F(SimulateCommand, ATrialThatStopsEarlyFailsAndIsWritten) {
   fs::create_directory(folder_ / "out");
   writeBytes(folder_ / "out" / "twist-002.vtu", "of an older run");
