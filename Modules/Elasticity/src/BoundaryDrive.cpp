@@ -106,7 +106,8 @@ void BoundaryDrive::project(double farthest, NodeVectors& places) const {
   forEachIndex(at_.size(), [&](std::size_t k) {
     const Place& at = at_[k];
     if (std::abs(at.phi) > farthest) return;
-    places[static_cast<std::size_t>(part_.boundary[k])] -= at.phi / std::max(at.slope, kLeastSlope) * at.normal;
+    places[static_cast<std::size_t>(part_.boundary[k])] -=
+        at.phi / std::max(at.slope, kLeastSlope) * at.normal;
   });
 }
 

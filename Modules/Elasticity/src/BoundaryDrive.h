@@ -31,16 +31,16 @@ class BoundaryDrive {
  private:
   struct Place {
     double phi = 0;
-    double slope = 1;                                   ///< of phi along the normal
+    double slope = 1;  ///< of phi along the normal
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   };
   Eigen::Vector3d meshNormal(std::size_t k, const NodeVectors& places) const;
 
   const MeshingBody& part_;
   const SignedDistance& phi_;
-  std::vector<std::int32_t> first_;     ///< boundary node k has fans_[first_[k]] up to fans_[first_[k + 1]]
+  std::vector<std::int32_t> first_;  ///< boundary node k has fans_[first_[k]] up to fans_[first_[k + 1]]
   std::vector<std::array<std::int32_t, 2>> fans_;  ///< the other two nodes of its triangles, in their order
-  std::vector<double> sizes_;           ///< least altitude around each boundary node at rest, mm
+  std::vector<double> sizes_;                      ///< least altitude around each boundary node at rest, mm
   std::vector<Place> at_;
 };
 

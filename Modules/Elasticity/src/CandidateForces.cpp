@@ -42,8 +42,8 @@ CandidateForces::CandidateForces(const ElasticBody& body, BoundaryDrive& drive,
   const Lame moduli = meshingLame(options.poisson);
   material_ = meshingMaterial(options.material, moduli);
   const double delay = options.damping * kCrossing;
-  parts_.push_back(std::make_unique<FiniteElements>(body, *material_,
-                                                    Damping{delay * moduli.lambda, delay * moduli.mu}));
+  parts_.push_back(
+      std::make_unique<FiniteElements>(body, *material_, Damping{delay * moduli.lambda, delay * moduli.mu}));
 }
 
 double CandidateForces::energy(const NodeVectors& places) const {
@@ -66,8 +66,7 @@ void CandidateForces::moveTo(const NodeVectors& places) {
 
 void CandidateForces::addDamping(const NodeVectors& velocities, NodeVectors& forces) const {
   for (const auto& part : parts_) part->addDamping(velocities, forces);
-  forEachIndex(forces.size(),
-               [&](std::size_t n) { forces[n] -= drag_ * body_.masses[n] * velocities[n]; });
+  forEachIndex(forces.size(), [&](std::size_t n) { forces[n] -= drag_ * body_.masses[n] * velocities[n]; });
 }
 
 }  // namespace sinew

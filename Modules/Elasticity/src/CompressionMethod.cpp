@@ -26,12 +26,14 @@ void compressBy(CompressionMethod method, const PhysicsCompressionOptions& physi
   if (method == CompressionMethod::Optimization) return;
   requireSound(physics);
   PhysicsCompressionOptions chosen = physics;
-  chosen.forces = method == CompressionMethod::Springs ? MeshingForces::Springs : MeshingForces::FiniteElements;
+  chosen.forces =
+      method == CompressionMethod::Springs ? MeshingForces::Springs : MeshingForces::FiniteElements;
   const auto filled = [report](const CompressionMethodReport& done) {
     if (report != nullptr) *report = done;
   };
   if (method == CompressionMethod::Hybrid) {
-    options.compressor = [=](TetMesh& mesh, const SignedDistance& phi, const CompressionOptions& compression) {
+    options.compressor = [=](TetMesh& mesh, const SignedDistance& phi,
+                             const CompressionOptions& compression) {
       filled({.physics = compressByPhysics(mesh, phi, compression, chosen)});
       return compressOntoSurface(mesh, phi, compression);
     };

@@ -9,9 +9,9 @@ namespace sinew {
 /// The part of a candidate mesh that moves when its boundary is driven.
 struct MeshingBody {
   ElasticBody body;
-  std::vector<std::int32_t> meshNodes;   ///< of the body's nodes
-  std::vector<std::uint8_t> moves;       ///< per body node; the others are held
-  std::vector<std::int32_t> boundary;    ///< body nodes on the boundary of the mesh
+  std::vector<std::int32_t> meshNodes;  ///< of the body's nodes
+  std::vector<std::uint8_t> moves;      ///< per body node; the others are held
+  std::vector<std::int32_t> boundary;   ///< body nodes on the boundary of the mesh
 };
 
 /// The tets around the nodes up to `rings` rings below the boundary. Tets have the density

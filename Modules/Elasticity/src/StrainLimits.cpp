@@ -1,7 +1,9 @@
 #include "sinew/Elasticity/StrainLimits.h"
 
 #include "NodeSums.h"
+#include "TetLanes.h"
 #include "sinew/Elasticity/Altitude.h"
+#include "sinew/Mesher/VectorClones.h"
 
 #include <Eigen/Geometry>
 
@@ -16,29 +18,39 @@ namespace {
 
 constexpr double kSlack = 1e-12;  // of the altitude: no impulses for what is round-off
 
-/// The four heights of a tet and their rates, as altitude() and Altitude::rate give them one by one:
-///     height_i = 6V / |c_i|,  rate_i = sum_j (c_i . v_j) (c_j . c_i) / |c_i|^3
-/// with c_i the inward normal of the face opposite to node i, twice its area long, and 6V = e_1 . c_1.
-struct Heights {
-  std::array<double, 4> now, rate;
-
-  Heights(const NodeVectors& places, const NodeVectors& velocities, const Tet& tet) {
-    const Eigen::Matrix3d e = edgeVectors(places, tet), v = edgeVectors(velocities, tet);
-    std::array<Eigen::Vector3d, 4> c;
-    c[1] = e.col(1).cross(e.col(2));
-    c[2] = e.col(2).cross(e.col(0));
-    c[3] = e.col(0).cross(e.col(1));
-    c[0] = -(c[1] + c[2] + c[3]);
-    const double volume6 = e.col(0).dot(c[1]);
-    for (std::size_t i = 0; i < 4; ++i) {
-      const double length2 = c[i].squaredNorm(), length = std::sqrt(length2);
-      now[i] = volume6 / length;
-      rate[i] = (c[i].dot(v.col(0)) * c[1].dot(c[i]) + c[i].dot(v.col(1)) * c[2].dot(c[i]) +
-                 c[i].dot(v.col(2)) * c[3].dot(c[i])) /
-                (length2 * length);
-    }
-  }
+struct Row3 {
+  double x, y, z;
 };
+inline double dot(Row3 a, Row3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline Row3 cross(Row3 a, Row3 b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// How many heights of each tet break a bound. With c_i the inward normal of the face opposite to node i,
+/// twice its area long, and 6V = e_1 . c_1, a height and its rate are
+///     h_i = 6V / |c_i|,  h_i' = q_i / |c_i|^3,  q_i = sum_j (c_i . v_j) (c_j . c_i)
+/// and here all bounds are multiplied by |c_i|^3.
+SINEW_VECTOR_CLONES void countBroken(const TetLanes::Edges& e, const TetLanes::Edges& v, double dt,
+                                     const TetLanes::Row* __restrict atRest, double strain, double change,
+                                     TetLanes::Row& __restrict broken) {
+  for (std::size_t t = 0; t < TetLanes::kTets; ++t) {
+    const Row3 e1{e[0][t], e[1][t], e[2][t]}, e2{e[3][t], e[4][t], e[5][t]}, e3{e[6][t], e[7][t], e[8][t]};
+    const Row3 v1{v[0][t], v[1][t], v[2][t]}, v2{v[3][t], v[4][t], v[5][t]}, v3{v[6][t], v[7][t], v[8][t]};
+    const Row3 c1 = cross(e2, e3), c2 = cross(e3, e1), c3 = cross(e1, e2);
+    const Row3 c0{-(c1.x + c2.x + c3.x), -(c1.y + c2.y + c3.y), -(c1.z + c2.z + c3.z)};
+    const double volume6 = dot(e1, c1);
+    const auto breaks = [&](Row3 c, double rest) {
+      const double length2 = dot(c, c), length3 = length2 * std::sqrt(length2);
+      const double step = dt * (dot(c, v1) * dot(c1, c) + dot(c, v2) * dot(c2, c) + dot(c, v3) * dot(c3, c));
+      const double next = volume6 * length2 + step, slack = (1 + kSlack) * rest * length3;
+      const double inside = std::abs(next - rest * length3) - strain * slack;
+      const double calm = std::abs(step) - change * slack;
+      return inside > 0 || calm > 0 ? 1. : 0.;
+    };
+    broken[t] = breaks(c0, atRest[0][t]) + breaks(c1, atRest[1][t]) + breaks(c2, atRest[2][t]) +
+                breaks(c3, atRest[3][t]);
+  }
+}
 
 }  // namespace
 
@@ -48,9 +60,10 @@ StrainLimits::StrainLimits(const ElasticBody& body, const StrainLimitOptions& op
     throw std::invalid_argument("StrainLimits: strain must be in (0, 1)");
   if (!(options.change > 0)) throw std::invalid_argument("StrainLimits: change must be positive");
   if (options.sweeps < 1) throw std::invalid_argument("StrainLimits: sweeps must be 1 or more");
-  const NodeVectors still(body.nodeCount(), Eigen::Vector3d::Zero());
-  forEachIndex(altitudes_.size(),
-               [&](std::size_t t) { altitudes_[t] = Heights(body.rest, still, body.tets[t]).now; });
+  forEachIndex(altitudes_.size(), [&](std::size_t t) {
+    for (int corner = 0; corner < 4; ++corner)
+      altitudes_[t][static_cast<std::size_t>(corner)] = altitude(body.rest, body.tets[t], corner).height;
+  });
 }
 
 double StrainLimits::excess(double atRest, double now, double next) const {
@@ -59,12 +72,29 @@ double StrainLimits::excess(double atRest, double now, double next) const {
   return std::abs(target - next) <= kSlack * atRest ? 0 : target - next;
 }
 
-bool StrainLimits::breaks(const NodeVectors& places, const NodeVectors& velocities, double dt,
-                          std::size_t tet) const {
-  const Heights heights(places, velocities, body_.tets[tet]);
-  for (std::size_t i = 0; i < 4; ++i)
-    if (excess(altitudes_[tet][i], heights.now[i], heights.now[i] + dt * heights.rate[i]) != 0) return true;
-  return false;
+template <class TetAt>
+std::vector<std::int32_t> StrainLimits::broken(std::size_t count, const TetAt& tetAt,
+                                               const NodeVectors& places, const NodeVectors& velocities,
+                                               double dt) const {
+  constexpr std::size_t kTets = TetLanes::kTets;
+  std::vector<std::uint8_t> flags(count);
+  forEachIndex((count + kTets - 1) / kTets, [&](std::size_t group) {
+    const std::size_t first = group * kTets, here = std::min(kTets, count - first);
+    const auto tetOf = [&](std::size_t lane) { return tetAt(first + std::min(lane, here - 1)); };
+    TetLanes::Edges edges, rates;
+    std::array<TetLanes::Row, 4> atRest;
+    TetLanes::Row breaks;
+    TetLanes::gather(body_, tetOf, places, edges);
+    TetLanes::gather(body_, tetOf, velocities, rates);
+    for (std::size_t lane = 0; lane < kTets; ++lane)
+      for (std::size_t i = 0; i < 4; ++i) atRest[i][lane] = altitudes_[tetOf(lane)][i];
+    countBroken(edges, rates, dt, atRest.data(), options_.strain, options_.change, breaks);
+    for (std::size_t lane = 0; lane < here; ++lane) flags[first + lane] = breaks[lane] > 0;
+  });
+  std::vector<std::int32_t> tets;
+  for (std::size_t k = 0; k < count; ++k)
+    if (flags[k] != 0) tets.push_back(static_cast<std::int32_t>(tetAt(k)));
+  return tets;
 }
 
 std::size_t StrainLimits::limitTet(const NodeConstraints& constraints, const NodeVectors& places, double dt,
@@ -94,34 +124,35 @@ std::size_t StrainLimits::limitTet(const NodeConstraints& constraints, const Nod
 
 std::size_t StrainLimits::apply(const NodeConstraints& constraints, const NodeVectors& places, double dt,
                                 NodeVectors& velocities) const {
-  std::vector<std::uint8_t> flags(body_.tets.size());
-  forEachIndex(flags.size(), [&](std::size_t t) { flags[t] = breaks(places, velocities, dt, t); });
-  std::vector<std::int32_t> tets;
-  for (std::size_t t = 0; t < flags.size(); ++t)
-    if (flags[t] != 0) tets.push_back(static_cast<std::int32_t>(t));
-
+  std::vector<std::int32_t> tets = broken(
+      body_.tets.size(), [](std::size_t t) { return t; }, places, velocities, dt);
+  std::vector<std::uint8_t> listed(tets.empty() ? 0 : body_.tets.size());
   std::size_t impulses = 0;
   for (int sweep = 0; sweep < options_.sweeps && !tets.empty(); ++sweep) {
     impulses = 0;
-    for (const std::int32_t t : tets) {
-      impulses += limitTet(constraints, places, dt, static_cast<std::size_t>(t), velocities);
-      flags[static_cast<std::size_t>(t)] = 0;
-    }
     std::vector<std::int32_t> next;
-    for (const std::int32_t t : tets)
-      for (const std::int32_t node : body_.tets[static_cast<std::size_t>(t)])
-        for (std::int32_t k = body_.firstCorner[static_cast<std::size_t>(node)];
-             k < body_.firstCorner[static_cast<std::size_t>(node) + 1]; ++k) {
-          const auto other = static_cast<std::size_t>(body_.corners[static_cast<std::size_t>(k)] / 4);
-          if (std::exchange(flags[other], std::uint8_t{1}) == 0)
-            next.push_back(static_cast<std::int32_t>(other));
-        }
-    for (const std::int32_t t : next) flags[static_cast<std::size_t>(t)] = 0;
-    std::erase_if(
-        next, [&](std::int32_t t) { return !breaks(places, velocities, dt, static_cast<std::size_t>(t)); });
-    tets = std::move(next);
+    for (const std::int32_t t : tets) {
+      const std::size_t given = limitTet(constraints, places, dt, static_cast<std::size_t>(t), velocities);
+      impulses += given;
+      if (given > 0) addTetsAround(t, listed, next);
+    }
+    for (const std::int32_t t : next) listed[static_cast<std::size_t>(t)] = 0;
+    tets = broken(
+        next.size(), [&](std::size_t k) { return static_cast<std::size_t>(next[k]); }, places, velocities,
+        dt);
   }
   return tets.empty() ? 0 : impulses;
+}
+
+void StrainLimits::addTetsAround(std::int32_t tet, std::vector<std::uint8_t>& listed,
+                                 std::vector<std::int32_t>& list) const {
+  for (const std::int32_t v : body_.tets[static_cast<std::size_t>(tet)]) {
+    const auto node = static_cast<std::size_t>(v);
+    for (std::int32_t k = body_.firstCorner[node]; k < body_.firstCorner[node + 1]; ++k) {
+      const std::int32_t other = body_.corners[static_cast<std::size_t>(k)] / 4;
+      if (std::exchange(listed[static_cast<std::size_t>(other)], std::uint8_t{1}) == 0) list.push_back(other);
+    }
+  }
 }
 
 }  // namespace sinew

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <stdexcept>
 
 namespace sinew {
@@ -46,7 +47,7 @@ struct Meshed {
 };
 
 Meshed meshBy(Method method, const SignedDistance& phi, double edge,
-           const PhysicsCompressionOptions& physics = {}) {
+              const PhysicsCompressionOptions& physics = {}) {
   Meshed run;
   GenerateTetMeshOptions options;
   options.edgeLength = edge;
@@ -171,6 +172,39 @@ TEST(PhysicsCompression, HybridIsAsGoodAsOptimization) {
     EXPECT_GE(hybrid.minDihedralDeg, 0.9 * optimized.minDihedralDeg);
     EXPECT_LE(hybrid.maxDihedralDeg, 1.1 * optimized.maxDihedralDeg);
   });
+}
+
+/// Of the compression of a ball, s: the better of two runs.
+double compressionSeconds(Method method) {
+  const tbb::global_control oneThread(tbb::global_control::max_allowed_parallelism, 1);
+  double least = 1e300;
+  for (int run = 0; run < 2; ++run) {
+    GenerateTetMeshOptions options;
+    options.edgeLength = 0.6;
+    compressBy(method, {}, options);
+    const Compressor inner = options.compressor ? options.compressor
+                                                : [](TetMesh& mesh, const SignedDistance& phi,
+                                                     const CompressionOptions& compression) {
+                                                    return compressOntoSurface(mesh, phi, compression);
+                                                  };
+    options.compressor = [&](TetMesh& mesh, const SignedDistance& phi,
+                             const CompressionOptions& compression) {
+      const std::clock_t start = std::clock();
+      CompressionReport report = inner(mesh, phi, compression);
+      least = std::min(least, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+      return report;
+    };
+    generateTetMesh(test::AnalyticSphere({0.1, 0.2, 0.3}, 5), options);
+  }
+  return least;
+}
+
+// The bound of the product; 4.4 times were measured. Sanitizers slow the two down by different factors.
+TEST(PhysicsCompression, TakesAtMostTenTimesTheTimeOfOptimization) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "no times under sanitizers";
+#endif
+  EXPECT_LE(compressionSeconds(Method::FiniteElements), 10 * compressionSeconds(Method::Optimization));
 }
 
 TEST(PhysicsCompression, RefusesOptionsOutOfRange) {

@@ -1,7 +1,7 @@
 #include "GoalStar.h"
 
 #include "GoalMeasure.h"
-#include "VectorClones.h"
+#include "sinew/Mesher/VectorClones.h"
 
 #include <algorithm>
 #include <bit>

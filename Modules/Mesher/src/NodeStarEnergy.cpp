@@ -1,6 +1,6 @@
 #include "NodeStarEnergy.h"
 
-#include "VectorClones.h"
+#include "sinew/Mesher/VectorClones.h"
 
 namespace sinew {
 

@@ -29,7 +29,12 @@ class StrainLimits {
  private:
   /// What the height needs to stay in its bounds after the step, mm; 0 when it does.
   double excess(double atRest, double now, double next) const;
-  bool breaks(const NodeVectors& places, const NodeVectors& velocities, double dt, std::size_t tet) const;
+  /// Of the tets tetAt(k), k < count, those that break a bound.
+  template <class TetAt>
+  std::vector<std::int32_t> broken(std::size_t count, const TetAt& tetAt, const NodeVectors& places,
+                                   const NodeVectors& velocities, double dt) const;
+  void addTetsAround(std::int32_t tet, std::vector<std::uint8_t>& listed,
+                     std::vector<std::int32_t>& list) const;
   std::size_t limitTet(const NodeConstraints& constraints, const NodeVectors& places, double dt,
                        std::size_t tet, NodeVectors& velocities) const;
 
