@@ -2,6 +2,7 @@
 #include "sinew/Elasticity/Muscle.h"
 #include "sinew/TestSupport/ElasticBars.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
@@ -146,6 +147,22 @@ TEST(Equilibrium, NoTetIsInvertedOnTheWay) {
   EXPECT_TRUE(report.converged) << report.residual;
   EXPECT_GT(report.leastVolumeRatio, 0);
   EXPECT_GT(places[body.nodeCount() / 2].array().abs().maxCoeff(), 0);
+}
+
+// Moved as a whole, a body has forces of rounding only: no balance of them is better than another.
+TEST(Equilibrium, ForcesBelowTheLeastCountAsNone) {
+  const ElasticBody body = elasticBody(test::barMesh({1, 1, 3}, 1));
+  NodeConstraints constraints(body.nodeCount());
+  constraints.freedom[0] = NodeFreedom::Held;
+  NodeVectors places = body.rest;
+  for (Vector3d& place : places)
+    place = Eigen::AngleAxisd(0.7, Vector3d::UnitX()) * place + Vector3d(1e3, 0, 0);
+  const auto material = neoHookean(lame(30, 0.45));
+  const EquilibriumReport report =
+      findEquilibrium(body, *material, constraints, {}, places, {.tolerance = 1e-4, .leastForce = 1e-3});
+  EXPECT_TRUE(report.converged);
+  EXPECT_EQ(report.steps, 0);
+  EXPECT_EQ(report.largestForce, 1e-3);
 }
 
 TEST(Equilibrium, RefusesAnInvertedStart) {

@@ -29,7 +29,7 @@ struct EquilibriumReport {
 /// @param outerForces  dead loads, mN per node; empty for none
 /// @param places  start, then the result
 /// @throws std::invalid_argument when keepPositive and a tet of the start has J <= 0
-/// Cost: a Newton step about 5 us per tet, half of it for the matrix.
+/// Cost: per Newton step about 30 evaluations of the forces for the matrix, then its products.
 /// Source: Nocedal and Wright 2006, algorithm 7.1 (line search Newton-CG).
 EquilibriumReport findEquilibrium(const ElasticBody& body, const Material& material,
                                   const NodeConstraints& constraints, const NodeVectors& outerForces,
