@@ -47,21 +47,31 @@ constexpr std::array kTrialOptions{
 /// What was chosen on the command line, before it is checked.
 struct Choices {
   std::array<std::optional<std::string>, kTrialOptions.size()> trials;  ///< amounts; may be empty texts
+  std::vector<std::string> meshes;                                      ///< that follow a trial's option
   std::optional<double> shear, bulk;
 };
 
 std::string usualText(Trial trial) { return CLI::detail::to_string(usualAmount(trial)); }
+
+std::optional<double> amountIn(const std::string& text) {
+  double amount = 0;
+  if (!CLI::detail::lexical_cast(text, amount)) return std::nullopt;
+  return amount;
+}
 
 void addTrialOptions(CLI::App& app, Choices& choices) {
   for (std::size_t i = 0; i < kTrialOptions.size(); ++i) {
     const TrialOption& row = kTrialOptions[i];
     app.add_option_function<std::vector<std::string>>(
            row.flag,
-           [&choices, i](const std::vector<std::string>& texts) {
-             choices.trials[i] = texts.empty() ? std::string() : texts.front();
+           [&choices, i](std::vector<std::string> words) {
+             std::erase(words, "");  // what the parser gives for no word at all
+             const bool hasAmount = !words.empty() && amountIn(words.front());
+             choices.trials[i] = hasAmount ? words.front() : std::string();
+             choices.meshes.insert(choices.meshes.end(), words.begin() + (hasAmount ? 1 : 0), words.end());
            },
            std::string(row.help) + "; default " + usualText(row.trial))
-        ->expected(0, 1)
+        ->expected(0, -1)
         ->type_name(row.form);
   }
 }
@@ -76,12 +86,9 @@ void takeTrial(const Choices& choices, TrialOptions& options) {
   const TrialOption& row = kTrialOptions[index];
   options.trial = row.trial;
   const std::string& text = *choices.trials[index];
-  double amount = 0;
   if (text.empty()) return;
-  if (!CLI::detail::lexical_cast(text, amount) || !(amount > 0))
-    throw CLI::ValidationError(row.flag,
-                               "'" + text + "' is no amount above 0; meshes stand before the option");
-  options.amount = amount;
+  options.amount = amountIn(text);
+  if (!(*options.amount > 0)) throw CLI::ValidationError(row.flag, "'" + text + "' is no amount above 0");
 }
 
 void takeMaterial(const Choices& choices, TrialOptions& options) {
@@ -249,6 +256,7 @@ std::string plotTitle(const SimulateCommand& command, const Simulation& simulati
 int simulate(const CommandLine& line, SimulateCommand& command, const Choices& choices) {
   const Clock::time_point start = Clock::now();
   takeTrial(choices, command.trial);
+  command.meshes.insert(command.meshes.end(), choices.meshes.begin(), choices.meshes.end());
   takeMaterial(choices, command.trial);
   if (command.meshes.empty()) throw CLI::RequiredError("MESH");
   if (command.meshes.size() > 1 && !command.compare)

@@ -299,8 +299,9 @@ TEST_F(SimulateCommand, ErrorsSayWhatAndWhere) {
   const std::string choose = "choose one of --contract, --compress, --indent, --stretch and --twist";
   EXPECT_EQ(refusal({at("bar.vtu")}, 2), choose);
   EXPECT_EQ(refusal({at("bar.vtu"), "--twist", "--contract"}, 2), choose);
-  EXPECT_EQ(refusal({"--twist", at("bar.vtu")}, 2),
-            "--twist: '" + at("bar.vtu") + "' is no amount above 0; meshes stand before the option");
+  EXPECT_EQ(refusal({"--twist", "0", at("bar.vtu")}, 2), "--twist: '0' is no amount above 0");
+  EXPECT_EQ(refusal({"--twist", at("bar.vtu"), at("b.vtu")}, 2),
+            "MESH: 2 meshes; add --compare to compare them");
   EXPECT_EQ(refusal({"--twist"}, 2), "MESH is required");
   EXPECT_EQ(refusal({at("bar.vtu"), "--twist", "--frames", "100000"}, 2), "--frames: 100000; at most 9999");
   EXPECT_EQ(refusal({at("bar.vtu"), at("b.vtu"), "--twist"}, 2),
