@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 bool isSlicerSegmentation(const std::string& file) { return file.ends_with(".seg.nrrd"); }
 
 /// A label map's name without what the formats append to it: `knee` of `knee.nii.gz`.
-std::string stemOf(const std::string& file) {
+std::string labelMapStem(const std::string& file) {
   for (const std::string_view ending : {".nii.gz", ".nii", ".nrrd", ".mha", ".mhd"})
     if (file.ends_with(ending)) return file.substr(0, file.size() - ending.size());
   return file;
@@ -31,7 +31,7 @@ std::string stemOf(const std::string& file) {
 std::vector<std::string> tablesOf(const ConvertCommand& command) {
   if (!command.tables.empty()) return command.tables;
   if (command.noTable || isSlicerSegmentation(command.output)) return {};
-  const std::string stem = stemOf(command.output);
+  const std::string stem = labelMapStem(command.output);
   return {stem + (stem.ends_with("_dseg") ? ".tsv" : ".ctbl")};
 }
 

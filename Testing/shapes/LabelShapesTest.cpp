@@ -9,10 +9,10 @@
 namespace sinew {
 namespace {
 
-constexpr unsigned kShapes = 132;
+constexpr unsigned kLabelShapes = 132;
 
 /// A way to mesh.
-struct Meshing {
+struct LabelMeshing {
   const char* name;
   Length edge, minEdge;
   double curvature;
@@ -20,14 +20,14 @@ struct Meshing {
   bool preserveVolume;
   double maxVolumeError;
 };
-const std::array<Meshing, 5> kMeshings{
+const std::array<LabelMeshing, 5> kLabelMeshings{
     {{"as by default", Length::voxels(2), 0, 1, 0, false, 0.03},
      {"fine where thin", Length::voxels(2), Length::voxels(0.5), 1, 0, false, 0.03},
      {"one size", Length::voxels(1.2), 0, 0, 0, false, 0.08},
      {"within a tolerance", Length::voxels(3), 0, 0, Length::voxels(0.1), false, 0.05},
      {"volume kept", Length::voxels(2), 0, 1, 0, true, 0.001}}};
 
-MeshTissuesOptions optionsOf(const Meshing& meshing) {
+MeshTissuesOptions optionsOf(const LabelMeshing& meshing) {
   MeshTissuesOptions options;
   options.edgeLength = meshing.edge;
   options.minEdgeLength = meshing.minEdge;
@@ -39,11 +39,11 @@ MeshTissuesOptions optionsOf(const Meshing& meshing) {
 
 TEST(LabelShapes, EveryMeshIsSound) {
   const test::TempFolder folder;
-  const std::vector<unsigned> seeds = test::seeds(kShapes);
+  const std::vector<unsigned> seeds = test::seeds(kLabelShapes);
   EXPECT_FALSE(seeds.empty());
   for (const unsigned seed : seeds) {
     const auto [drawing, segmentation] = test::RandomScan(seed).make();
-    const Meshing& meshing = kMeshings[seed % kMeshings.size()];
+    const LabelMeshing& meshing = kLabelMeshings[seed % kLabelMeshings.size()];
     SCOPED_TRACE(test::repeatWith(seed, std::string(drawing.name) + ", " + meshing.name));
     ASSERT_EQ(segmentation.tissues.size(), 1u);
     const TissueReport report = meshTissues(segmentation, {0}, folder.path(), optionsOf(meshing)).front();

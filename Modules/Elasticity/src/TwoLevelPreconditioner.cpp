@@ -46,7 +46,7 @@ std::vector<std::vector<std::size_t>> growPatches(const StiffnessMatrix& matrix,
   return patches;
 }
 
-Matrix3d crossMatrix(const Vector3d& v) {
+Matrix3d crossProductMatrix(const Vector3d& v) {
   Matrix3d result;
   result << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
   return result;
@@ -76,7 +76,7 @@ TwoLevelPreconditioner::TwoLevelPreconditioner(const ElasticBody& body, const St
     for (const std::size_t n : patches_[p]) radius = std::max(radius, (body.rest[n] - middle).norm());
     for (const std::size_t n : patches_[p]) {
       patchOf_[n] = static_cast<std::int32_t>(p);
-      modes_[n] << Matrix3d::Identity(), crossMatrix((body.rest[n] - middle) / radius);
+      modes_[n] << Matrix3d::Identity(), crossProductMatrix((body.rest[n] - middle) / radius);
       for (int mode = 0; mode < 6; ++mode) modes_[n].col(mode) = constraints.free(n, modes_[n].col(mode));
     }
   }

@@ -68,7 +68,7 @@ TEST(Newmark, TheStepDoesNotDependOnTheDamping) {
   }
 }
 
-struct Bar {
+struct MovingBar {
   ElasticBody body = elasticBody(test::barMesh({4, 2, 2}, 2));
   std::unique_ptr<Material> material = neoHookean(lame(30, 0.3));
   FiniteElements forces{body, *material, {.alpha = 0.01, .beta = 0.01}};
@@ -82,7 +82,7 @@ struct Bar {
 };
 
 TEST(Newmark, KeepsLinearMomentumAndTurnsLittle) {
-  Bar bar;
+  MovingBar bar;
   const Vector3d before = test::total(bar.momentum());
   const double scale = test::magnitude(bar.momentum());
   const double dt = stableStep(bar.body, bar.body.rest, 7000);
@@ -93,7 +93,7 @@ TEST(Newmark, KeepsLinearMomentumAndTurnsLittle) {
 }
 
 TEST(Newmark, DampingOnlyTakesEnergy) {
-  Bar bar;
+  MovingBar bar;
   const double dt = stableStep(bar.body, bar.body.rest, 7000, 0.2);
   const auto energy = [&] {
     return bar.forces.energy(bar.motion.places) + kineticEnergy(bar.body, bar.motion.velocities);
@@ -109,7 +109,7 @@ TEST(Newmark, DampingOnlyTakesEnergy) {
 }
 
 TEST(Newmark, HeldNodesHaveTheirVelocity) {
-  Bar bar;
+  MovingBar bar;
   NodeConstraints constraints(bar.body.nodeCount());
   constraints.freedom[0] = NodeFreedom::Held;
   constraints.velocities[0] = {1, 2, 3};
@@ -127,7 +127,7 @@ TEST(Newmark, HeldNodesHaveTheirVelocity) {
 TEST(Newmark, SameBitsForAnyNumberOfThreads) {
   const auto run = [](std::size_t threads) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-    Bar bar;
+    MovingBar bar;
     for (int step = 0; step < 5; ++step)
       newmarkStep(bar.body, bar.forces, NodeConstraints(bar.body.nodeCount()), 1e-5, bar.motion);
     return bar.motion.places;
@@ -136,7 +136,7 @@ TEST(Newmark, SameBitsForAnyNumberOfThreads) {
 }
 
 TEST(Newmark, RefusesAStepThatIsNone) {
-  Bar bar;
+  MovingBar bar;
   EXPECT_THROW(newmarkStep(bar.body, bar.forces, NodeConstraints(bar.body.nodeCount()), 0, bar.motion),
                std::invalid_argument);
 }

@@ -10,13 +10,13 @@ namespace {
 using Eigen::Vector3d;
 
 /// The linear system of a bar along z that is held at z = 0 and slides on a wall along x.
-struct Bar {
+struct HeldBar {
   ElasticBody body;
   NodeConstraints constraints;
   StiffnessMatrix matrix;
   TwoLevelPreconditioner preconditioner;
 
-  explicit Bar(int length)
+  explicit HeldBar(int length)
       : body(elasticBody(test::barMesh({3, 3, length}, 1))),
         constraints(held(body)),
         matrix(body),
@@ -56,7 +56,7 @@ struct Bar {
 };
 
 TEST(TwoLevelPreconditioner, IsSymmetricAndPositive) {
-  const Bar bar(12);
+  const HeldBar bar(12);
   const std::size_t nodes = bar.body.nodeCount();
   for (unsigned seed = 1; seed < 5; ++seed) {
     const NodeVectors a = bar.free(test::randomVectors(nodes, 1, seed)),
@@ -74,7 +74,7 @@ TEST(TwoLevelPreconditioner, IsSymmetricAndPositive) {
 // the length; patches of a fixed number of nodes need as many steps for any length, but for the ends.
 TEST(TwoLevelPreconditioner, StepsDoNotGrowWithTheBody) {
   const auto both = [](int length) {
-    const Bar bar(length);
+    const HeldBar bar(length);
     const auto blocks = [&](const NodeVectors& in, NodeVectors& out) {
       for (std::size_t n = 0; n < in.size(); ++n)
         out[n] = bar.constraints.free(n, bar.matrix.diagonal(n).inverse() * in[n]);

@@ -13,22 +13,22 @@
 namespace sinew {
 namespace {
 
-[[noreturn]] void refuse(const std::string& what) {
+[[noreturn]] void refuseSurface(const std::string& what) {
   throw std::invalid_argument("levelSetFromTriangles: " + what);
 }
 
 void checkTriangles(const TriangleSurface& surface) {
-  if (surface.triangles.empty()) refuse("there are no triangles");
+  if (surface.triangles.empty()) refuseSurface("there are no triangles");
   for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
     const auto& [a, b, c] = surface.triangles[t];
     const std::string name = "triangle " + std::to_string(t);
     for (const std::int32_t node : {a, b, c}) {
       if (node < 0 || static_cast<std::size_t>(node) >= surface.nodes.size())
-        refuse(name + " names node " + std::to_string(node) + ", which is not there");
+        refuseSurface(name + " names node " + std::to_string(node) + ", which is not there");
       if (!surface.nodes[node].allFinite())
-        refuse("node " + std::to_string(node) + " has no finite coordinates");
+        refuseSurface("node " + std::to_string(node) + " has no finite coordinates");
     }
-    if (a == b || b == c || c == a) refuse(name + " names a node twice");
+    if (a == b || b == c || c == a) refuseSurface(name + " names a node twice");
   }
 }
 
@@ -84,7 +84,7 @@ void forEachEdge(const std::vector<Side>& sides, Pair&& pair) {
       pair(first->triangle, std::next(first)->triangle);
     first = last;
   }
-  if (const std::string text = faults.text(); !text.empty()) refuse("no closed manifold: " + text);
+  if (const std::string text = faults.text(); !text.empty()) refuseSurface("no closed manifold: " + text);
 }
 
 /// Six times the volume between a triangle and a point is their determinant.

@@ -15,7 +15,7 @@ namespace sinew {
 namespace {
 
 /// Half width of the band that moves, and of the distance around it, samples.
-constexpr float kMoving = 4, kAround = 6;
+constexpr float kMoving = 4, kAroundVoxels = 6;
 /// phi may start with less.
 constexpr float kLeastKnown = 3;
 /// b t, samples^2: a ball of 200 samples is gone by then.
@@ -107,7 +107,7 @@ float largestMagnitude(const DenseField& phi) {
   return largest;
 }
 
-void scale(DenseField& phi, float factor) {
+void scaleSlices(DenseField& phi, float factor) {
   tbb::parallel_for(0, phi.size.z(), [&](int k) {
     float* slice = phi.row(0, k);
     const std::size_t samples = phi.index(0, 0, 1);
@@ -140,7 +140,7 @@ MeanCurvatureMotionReport meanCurvatureMotion(DenseField& phi, double spacing, d
   const int steps = static_cast<int>(std::ceil(samplesSquared / options.cfl));
   if (steps == 0 || phi.values.empty()) return report;
   const auto ratio = static_cast<float>(samplesSquared / steps);
-  scale(phi, static_cast<float>(1 / spacing));
+  scaleSlices(phi, static_cast<float>(1 / spacing));
   const auto redistance = [&](const Eigen::Vector3d& h, double width) {
     fastMarching(phi, h, width, {.closestPointLayers = 2});
     ++report.redistances;
@@ -149,8 +149,8 @@ MeanCurvatureMotionReport meanCurvatureMotion(DenseField& phi, double spacing, d
   float known = 0.999F * largestMagnitude(phi);
   while (report.steps < steps) {
     if (known < kLeastKnown) {
-      redistance(Eigen::Vector3d::Ones(), kAround);
-      known = kAround;
+      redistance(Eigen::Vector3d::Ones(), kAroundVoxels);
+      known = kAroundVoxels;
     }
     Motion motion(phi, std::min(kMoving, known));
     const int now = std::min(options.stepsPerRedistance, steps - report.steps);
@@ -158,7 +158,7 @@ MeanCurvatureMotionReport meanCurvatureMotion(DenseField& phi, double spacing, d
     report.steps += now;
     known = 0;
   }
-  scale(phi, static_cast<float>(spacing));
+  scaleSlices(phi, static_cast<float>(spacing));
   redistance(Eigen::Vector3d::Constant(spacing), band);
   return report;
 }

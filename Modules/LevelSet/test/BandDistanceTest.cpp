@@ -14,10 +14,10 @@ using Eigen::Vector3d;
 using Eigen::Vector3i;
 using test::sampled;
 
-double sphere(const Vector3d& x) { return x.norm() - 12; }
-double torus(const Vector3d& x) { return std::hypot(std::hypot(x.x(), x.y()) - 14, x.z()) - 9; }
-double cylinder(const Vector3d& x) { return std::hypot(x.x(), x.y()) - 12; }
-double slab(const Vector3d& x) { return std::abs(x.dot(Vector3d(1, 2, 2)) / 3) - 3.4; }
+double ballOf12(const Vector3d& x) { return x.norm() - 12; }
+double torusOf14(const Vector3d& x) { return std::hypot(std::hypot(x.x(), x.y()) - 14, x.z()) - 9; }
+double rodOf12(const Vector3d& x) { return std::hypot(x.x(), x.y()) - 12; }
+double tiltedSlab(const Vector3d& x) { return std::abs(x.dot(Vector3d(1, 2, 2)) / 3) - 3.4; }
 
 /// A raster with an odd, an even and again an odd number of samples.
 DenseField field(double (*exact)(const Vector3d&), const Vector3d& spacing) {
@@ -27,7 +27,7 @@ DenseField field(double (*exact)(const Vector3d&), const Vector3d& spacing) {
 
 TEST(BandDistance, IsFastMarchingWithinThreeSamples) {
   const Vector3d spacing(1, 1, 1);
-  for (const auto& exact : {sphere, torus, slab}) {
+  for (const auto& exact : {ballOf12, torusOf14, tiltedSlab}) {
     DenseField phi = field(exact, spacing), marched = phi;
     bandDistance(phi, spacing, 8);
     fastMarching(marched, spacing, 3);
@@ -45,7 +45,7 @@ TEST(BandDistance, IsFastMarchingWithinThreeSamples) {
 
 TEST(BandDistance, FartherOutTheDistanceIsGoodForOneAndAHalfPercent) {
   for (const Vector3d& spacing : {Vector3d(1, 1, 1), Vector3d(1, 0.8, 1.1)})
-    for (const auto& exact : {sphere, cylinder}) {
+    for (const auto& exact : {ballOf12, rodOf12}) {
       DenseField phi = field(exact, spacing);
       const DenseField distance = phi;
       bandDistance(phi, spacing, 8);
@@ -68,7 +68,7 @@ TEST(BandDistance, FartherOutTheDistanceIsGoodForOneAndAHalfPercent) {
 
 TEST(BandDistance, ANarrowBandIsFastMarching) {
   const Vector3d spacing(1, 1, 1);
-  DenseField phi = field(torus, spacing), marched = phi;
+  DenseField phi = field(torusOf14, spacing), marched = phi;
   bandDistance(phi, spacing, 3);
   fastMarching(marched, spacing, 3);
   EXPECT_EQ(phi.values, marched.values);
@@ -76,7 +76,7 @@ TEST(BandDistance, ANarrowBandIsFastMarching) {
 
 TEST(BandDistance, TheNumberOfThreadsDoesNotShow) {
   const auto run = [] {
-    DenseField phi = field(torus, {0.5, 0.5, 0.5});  // more than one tile
+    DenseField phi = field(torusOf14, {0.5, 0.5, 0.5});  // more than one tile
     bandDistance(phi, {0.5, 0.5, 0.5}, 4);
     return phi.values;
   };

@@ -17,7 +17,7 @@ using Eigen::Vector3i;
 using test::sampled;
 using test::volumeOf;
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double kBand = 4;
 
 /// Two level sets on a box that holds both, to compare them sample by sample.
@@ -100,28 +100,28 @@ struct KnownVolume {
 
 double distanceTo(const Solid& solid, const Vector3d& x) { return solid.phi(x); }
 
-const Solid kBall = sphere({0, 0, 0}, 12), kOther = sphere({10, 0, 0}, 9);
+const Solid kOneBall = sphere({0, 0, 0}, 12), kOther = sphere({10, 0, 0}, 9);
 const Solid kDrill = cylinder({0, 0, -20}, {0, 0, 20}, 5);
 const Solid kBrick = box({-9, -8, -10}, {9, 8, 10}), kCorner = box({0, 1, 2}, {15, 16, 14});
 
 double lens(double R, double r, double d) {
-  return kPi * std::pow(R + r - d, 2) * (d * d + 2 * d * (r + R) - 3 * (r - R) * (r - R)) / (12 * d);
+  return pi * std::pow(R + r - d, 2) * (d * d + 2 * d * (r + R) - 3 * (r - R) * (r - R)) / (12 * d);
 }
-double ballVolume(double r) { return 4 * kPi / 3 * r * r * r; }
+double ballVolume(double r) { return 4 * pi / 3 * r * r * r; }
 
 const std::vector<KnownVolume> kKnown{
-    {"lens", [] { return intersect(sampled(kBall), sampled(kOther)); },
-     [](const Vector3d& x) { return std::max(distanceTo(kBall, x), distanceTo(kOther, x)); },
+    {"lens", [] { return intersect(sampled(kOneBall), sampled(kOther)); },
+     [](const Vector3d& x) { return std::max(distanceTo(kOneBall, x), distanceTo(kOther, x)); },
      lens(12, 9, 10)},
-    {"two balls", [] { return unite(sampled(kBall), sampled(kOther)); },
-     [](const Vector3d& x) { return std::min(distanceTo(kBall, x), distanceTo(kOther, x)); },
+    {"two balls", [] { return unite(sampled(kOneBall), sampled(kOther)); },
+     [](const Vector3d& x) { return std::min(distanceTo(kOneBall, x), distanceTo(kOther, x)); },
      ballVolume(12) + ballVolume(9) - lens(12, 9, 10)},
-    {"moon", [] { return subtract(sampled(kBall), sampled(kOther)); },
-     [](const Vector3d& x) { return std::max(distanceTo(kBall, x), -distanceTo(kOther, x)); },
+    {"moon", [] { return subtract(sampled(kOneBall), sampled(kOther)); },
+     [](const Vector3d& x) { return std::max(distanceTo(kOneBall, x), -distanceTo(kOther, x)); },
      ballVolume(12) - lens(12, 9, 10)},
-    {"napkin ring", [] { return subtract(sampled(kBall), sampled(kDrill)); },
-     [](const Vector3d& x) { return std::max(distanceTo(kBall, x), -distanceTo(kDrill, x)); },
-     4 * kPi / 3 * std::pow(144 - 25, 1.5)},
+    {"napkin ring", [] { return subtract(sampled(kOneBall), sampled(kDrill)); },
+     [](const Vector3d& x) { return std::max(distanceTo(kOneBall, x), -distanceTo(kDrill, x)); },
+     4 * pi / 3 * std::pow(144 - 25, 1.5)},
     {"corner of two boxes", [] { return intersect(sampled(kBrick), sampled(kCorner)); },
      [](const Vector3d& x) { return std::max(distanceTo(kBrick, x), distanceTo(kCorner, x)); }, 9 * 7 * 8},
     {"two boxes", [] { return unite(sampled(kBrick), sampled(kCorner)); },
@@ -197,7 +197,7 @@ struct Wedge {
 TEST(Csg, AFilletIsTheCircleThatTouchesBothPlanesAndAnEllipseInASharpValley) {
   constexpr double r = 3;
   for (const double degrees : {20., 40., 90., 130.}) {
-    const Wedge wedge{degrees * kPi / 180};
+    const Wedge wedge{degrees * pi / 180};
     const DenseLevelSet valley = unite(wedge.slab(wedge.left()), wedge.slab(wedge.right()), r);
     const DenseLevelSet ridge = intersect(wedge.slab(wedge.left()), wedge.slab(wedge.right()), r);
     const double centre = r / std::cos(wedge.angle / 2);  // where both planes are r away
@@ -226,7 +226,7 @@ TEST(Csg, AFilletIsTheCircleThatTouchesBothPlanesAndAnEllipseInASharpValley) {
 
 TEST(Csg, ABlendChangesOnlyWhereBothSurfacesAreNearerThanItsRadius) {
   constexpr double r = 3;
-  const DenseLevelSet a = sampled(kBall), b = sampled(kOther);
+  const DenseLevelSet a = sampled(kOneBall), b = sampled(kOther);
   const auto compare = [](const DenseLevelSet& sharp, const DenseLevelSet& blended, double sideA,
                           double sideB) {
     const auto [x, y] = aligned(sharp, blended);
@@ -242,7 +242,7 @@ TEST(Csg, ABlendChangesOnlyWhereBothSurfacesAreNearerThanItsRadius) {
       const double blendedPhi = y.values[n++];
       if (phi == blendedPhi) return;
       ++different;
-      ASSERT_LT(sideA * kBall.phi(at), r + 1e-4);  // single precision
+      ASSERT_LT(sideA * kOneBall.phi(at), r + 1e-4);  // single precision
       ASSERT_LT(sideB * kOther.phi(at), r + 1e-4);
     });
     EXPECT_GT(different, 100);
@@ -269,7 +269,7 @@ TEST(Csg, AShapeBlendedWithItselfIsItself) {
 }
 
 TEST(Csg, TheNumberOfThreadsDoesNotShow) {
-  const DenseLevelSet a = sampled(kBall), b = sampled(kOther);
+  const DenseLevelSet a = sampled(kOneBall), b = sampled(kOther);
   for (const double blend : {0., 2.}) {
     const auto run = [&] { return unite(subtract(a, b, blend), intersect(a, b, blend), blend).phi.values; };
     EXPECT_EQ(test::onThreads(1, run), test::onThreads(4, run));
@@ -277,13 +277,13 @@ TEST(Csg, TheNumberOfThreadsDoesNotShow) {
 }
 
 TEST(Csg, RefusesOtherLatticesAndBlendsOutOfRange) {
-  const DenseLevelSet a = sampled(kBall);
+  const DenseLevelSet a = sampled(kOneBall);
   const auto message = [&](const DenseLevelSet& b, double blend) {
     return test::messageOf<std::invalid_argument>([&] { unite(a, b, blend); });
   };
   const std::string lattice = "unite: the two level sets have not the same lattice";
-  EXPECT_EQ(message(sampled(kBall, kBand, test::tiltedLattice(0.9)), 0), lattice);
-  EXPECT_EQ(message(sampled(kBall, kBand, {}), 0), lattice);
+  EXPECT_EQ(message(sampled(kOneBall, kBand, test::tiltedLattice(0.9)), 0), lattice);
+  EXPECT_EQ(message(sampled(kOneBall, kBand, {}), 0), lattice);
   EXPECT_EQ(message(a, -1), "unite: blend must lie in [0, 4.000000], the band in mm, got -1.000000");
   EXPECT_EQ(message(a, 4.5), "unite: blend must lie in [0, 4.000000], the band in mm, got 4.500000");
   EXPECT_THROW(intersect(a, a, std::nan("")), std::invalid_argument);

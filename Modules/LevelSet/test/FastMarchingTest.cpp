@@ -53,12 +53,12 @@ Error marchedError(double h, const Vector3d& aspect, double halfWidth, const Fun
   return errorWithin(phi, origin, spacing, 3 * h, exact);
 }
 
-double sphere(const Vector3d& x) { return x.norm() - 10; }
-double torus(const Vector3d& x) { return std::hypot(std::hypot(x.x(), x.y()) - 9, x.z()) - 4.5; }
+double ballOf10(const Vector3d& x) { return x.norm() - 10; }
+double torusOf9(const Vector3d& x) { return std::hypot(std::hypot(x.x(), x.y()) - 9, x.z()) - 4.5; }
 double plane(const Vector3d& x) { return x.dot(Vector3d(1, 2, 2)) / 3 - 0.37; }
 
 TEST(FastMarching, DistanceToASphereAndATorusIsOfSecondOrder) {
-  for (const auto& exact : {sphere, torus}) {
+  for (const auto& exact : {ballOf10, torusOf9}) {
     const Error coarse = marchedError(1, Vector3d::Ones(), 16, exact);
     const Error fine = marchedError(0.5, Vector3d::Ones(), 16, exact);
     // The field's slope changes by 20 % from voxel to voxel on purpose: most of this is the cubic patches'
@@ -89,7 +89,7 @@ TEST(FastMarching, ATiltedPlaneComesOutExact) {
 }
 
 TEST(FastMarching, WorksOnAnisotropicSpacing) {
-  const Error error = marchedError(0.5, Vector3d(1, 1.4, 2), 16, sphere);
+  const Error error = marchedError(0.5, Vector3d(1, 1.4, 2), 16, ballOf10);
   EXPECT_LT(error.mean, 0.01);
   EXPECT_LT(error.max, 0.1);
 }
@@ -98,9 +98,9 @@ TEST(FastMarching, ZeroSetStaysWhereItIs) {
   // A true distance goes in, so every change beside the surface is a shift of the surface. LEVELSET's floor:
   // .003.
   const Vector3d origin = Vector3d::Constant(-15.7), one = Vector3d::Ones();
-  DenseField phi = sampled({32, 32, 32}, origin, one, sphere);
+  DenseField phi = sampled({32, 32, 32}, origin, one, ballOf10);
   fastMarching(phi, one, 4);
-  const Error beside = errorWithin(phi, origin, one, 0.5, sphere);
+  const Error beside = errorWithin(phi, origin, one, 0.5, ballOf10);
   EXPECT_LT(beside.mean, 0.002);
   EXPECT_LT(beside.max, 0.01);
 }
@@ -146,7 +146,7 @@ TEST(FastMarching, WithoutASurfaceTheFieldIsTheBand) {
 
 TEST(FastMarching, TheNumberOfThreadsDoesNotShow) {
   const auto run = [] {
-    DenseField phi = sampled({80, 80, 40}, {-19.6, -19.6, -19.6}, {0.5, 0.5, 1}, torus);
+    DenseField phi = sampled({80, 80, 40}, {-19.6, -19.6, -19.6}, {0.5, 0.5, 1}, torusOf9);
     fastMarching(phi, {0.5, 0.5, 1}, 4);
     return phi.values;
   };
@@ -174,7 +174,7 @@ TEST(FastMarching, TilesDoNotShow) {
   EXPECT_LT(worst, 1e-3);
 }
 
-double box(const Vector3d& x) {
+double blockOf7(const Vector3d& x) {
   const Vector3d q = x.cwiseAbs() - Vector3d(7, 5, 6);
   return q.cwiseMax(0).norm() + std::min(q.maxCoeff(), 0.0);
 }
@@ -199,7 +199,7 @@ double errorFromExactSeeds(double h, int order, const Function& shape) {
 }
 
 TEST(FastMarching, OrderOneHalvesAndOrderTwoQuartersTheErrorAtHalfTheSpacing) {
-  for (const auto& shape : {sphere, torus, box}) {
+  for (const auto& shape : {ballOf10, torusOf9, blockOf7}) {
     const auto errors = [&](int order) {
       return Vector3d(errorFromExactSeeds(0.8, order, shape), errorFromExactSeeds(0.4, order, shape),
                       errorFromExactSeeds(0.2, order, shape));

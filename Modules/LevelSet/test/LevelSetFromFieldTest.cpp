@@ -12,11 +12,11 @@ namespace {
 using Eigen::Vector3d;
 using test::sampled;
 
-constexpr double kBand = 2, kVoxel = 0.5;
+constexpr double kNarrowBand = 2, kVoxel = 0.5;
 
 DenseField ball(const Eigen::Vector3i& size = {45, 46, 47}) {
   return sampled(size, Vector3d::Constant(-11), Vector3d::Constant(kVoxel),
-                 [](const Vector3d& x) { return std::clamp(x.norm() - 8, -kBand, kBand); });
+                 [](const Vector3d& x) { return std::clamp(x.norm() - 8, -kNarrowBand, kNarrowBand); });
 }
 
 Eigen::Isometry3d someFrame() {
@@ -27,22 +27,22 @@ Eigen::Isometry3d someFrame() {
 
 TEST(LevelSetFromField, EverySampleIsInTheTreeAndTheInsideIsTiled) {
   const DenseField phi = ball();
-  const LevelSet levelSet = levelSetFromField({phi, someFrame(), kVoxel, kBand});
+  const LevelSet levelSet = levelSetFromField({phi, someFrame(), kVoxel, kNarrowBand});
   const openvdb::FloatGrid& grid = *levelSet.grid->grid;
   EXPECT_EQ(grid.getGridClass(), openvdb::GRID_LEVEL_SET);
-  EXPECT_FLOAT_EQ(grid.background(), kBand);
+  EXPECT_FLOAT_EQ(grid.background(), kNarrowBand);
   auto values = grid.getConstAccessor();
   for (int k = 0; k < phi.size.z(); ++k)
     for (int j = 0; j < phi.size.y(); ++j)
       for (int i = 0; i < phi.size.x(); ++i) {
         ASSERT_EQ(values.getValue({i, j, k}), phi(i, j, k));
-        ASSERT_EQ(values.isValueOn({i, j, k}), std::abs(phi(i, j, k)) < kBand);
+        ASSERT_EQ(values.isValueOn({i, j, k}), std::abs(phi(i, j, k)) < kNarrowBand);
       }
   EXPECT_EQ(levelSet.upper, Eigen::Vector3i(44, 45, 46));
 }
 
 TEST(LevelSetFromField, TheTransformIsTheFrame) {
-  const LevelSet levelSet = levelSetFromField({ball(), someFrame(), kVoxel, kBand});
+  const LevelSet levelSet = levelSetFromField({ball(), someFrame(), kVoxel, kNarrowBand});
   const Vector3d index(3, -4, 5.5);
   const Vector3d expected = levelSet.frame * Vector3d(levelSet.voxelSize * index);
   const openvdb::Vec3d x = levelSet.grid->grid->indexToWorld(openvdb::Vec3d(index.x(), index.y(), index.z()));
@@ -57,7 +57,7 @@ TEST(LevelSetFromField, AnOffsetMovesTheSurfaceOutward) {
 }
 
 TEST(LevelSetFromField, TheWayBackGivesTheSameField) {
-  LevelSet levelSet = levelSetFromField({ball(), someFrame(), kVoxel, kBand});
+  LevelSet levelSet = levelSetFromField({ball(), someFrame(), kVoxel, kNarrowBand});
   const DenseLevelSet whole = fieldFromLevelSet(levelSet);
   EXPECT_EQ(whole.phi.values, ball().values);
   EXPECT_TRUE(whole.frame.isApprox(someFrame()));
@@ -65,13 +65,13 @@ TEST(LevelSetFromField, TheWayBackGivesTheSameField) {
   const DenseLevelSet part = fieldFromLevelSet(levelSet);
   EXPECT_EQ(part.phi.size, Eigen::Vector3i(42, 42, 49));
   EXPECT_EQ(part.phi(20, 21, 12), ball()(23, 25, 10));
-  EXPECT_EQ(part.phi(20, 21, 1), static_cast<float>(kBand)) << "beyond the field";
+  EXPECT_EQ(part.phi(20, 21, 1), static_cast<float>(kNarrowBand)) << "beyond the field";
   EXPECT_LT((part.frame * Vector3d::Zero() - someFrame() * (kVoxel * Vector3d(3, 4, -2))).norm(), 1e-12);
 }
 
 TEST(LevelSetFromField, TheNumberOfThreadsDoesNotShow) {
   const DenseField phi = ball();
-  const auto run = [&] { return levelSetFromField({phi, someFrame(), kVoxel, kBand}).grid->grid; };
+  const auto run = [&] { return levelSetFromField({phi, someFrame(), kVoxel, kNarrowBand}).grid->grid; };
   const auto one = test::onThreads(1, run), four = test::onThreads(4, run);
   EXPECT_TRUE(one->tree().hasSameTopology(four->tree()));
   auto a = one->tree().cbeginLeaf(), b = four->tree().cbeginLeaf();

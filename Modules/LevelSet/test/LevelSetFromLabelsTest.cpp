@@ -61,24 +61,24 @@ Converted convert(const Segmentation& s, const LevelSetFromLabelsOptions& option
 }
 
 const Vector3d kOffCentre(0.21, -0.34, 0.17);
-double sphere(const Vector3d& x) { return (x - kOffCentre).norm() - 20; }
+double ballOffCentre(const Vector3d& x) { return (x - kOffCentre).norm() - 20; }
 
-Matrix3d oblique() { return Eigen::AngleAxisd(0.35, Vector3d(1, 2, 3).normalized()).toRotationMatrix(); }
-Matrix3d mirrored() { return oblique() * Vector3d(1, -1, 1).asDiagonal(); }
-Matrix3d permuted() {
+Matrix3d obliqueAxes() { return Eigen::AngleAxisd(0.35, Vector3d(1, 2, 3).normalized()).toRotationMatrix(); }
+Matrix3d mirroredAxes() { return obliqueAxes() * Vector3d(1, -1, 1).asDiagonal(); }
+Matrix3d permutedAxes() {
   Matrix3d direction;
   direction << 0, 0, -1, 1, 0, 0, 0, 1, 0;
   return direction;
 }
-Matrix3d sheared() {
+Matrix3d shearedAxes() {
   Matrix3d direction = Matrix3d::Identity();
   direction.col(2) = Vector3d(0, std::sin(0.2), std::cos(0.2));
   return direction;
 }
 
 TEST(LevelSetFromLabels, ASphereComesOutWithinATenthOfAVoxel) {
-  const Converted c = convert(segmentationOf(centredGeometry({48, 48, 48}, Vector3d::Ones()), sphere));
-  const SurfaceError error = surfaceError(c.levelSet, sphere);
+  const Converted c = convert(segmentationOf(centredGeometry({48, 48, 48}, Vector3d::Ones()), ballOffCentre));
+  const SurfaceError error = surfaceError(c.levelSet, ballOffCentre);
   EXPECT_LT(error.rms, 0.08) << "0.069 measured for Gauss-iso, 0.2 for the voxels' stairs";
   EXPECT_LT(std::abs(error.mean), 0.02) << "no shift";
   EXPECT_LT(std::abs(c.volumeError()), 0.005);
@@ -89,16 +89,16 @@ TEST(LevelSetFromLabels, ASphereComesOutWithinATenthOfAVoxel) {
 }
 
 TEST(LevelSetFromLabels, ACoarseGridKeepsPlaceAndVolume) {
-  for (const Matrix3d& direction : {Matrix3d(Matrix3d::Identity()), mirrored()})
+  for (const Matrix3d& direction : {Matrix3d(Matrix3d::Identity()), mirroredAxes()})
     for (const Vector3d& spacing : {Vector3d(0.5, 0.5, 0.5), Vector3d(0.4, 0.4, 1.5)}) {
       SCOPED_TRACE(testing::Message() << "spacing " << spacing.transpose() << " direction\n" << direction);
       const Vector3i size = (Vector3d::Constant(46).cwiseQuotient(spacing)).array().ceil().cast<int>();
       LevelSetFromLabelsOptions options;
       options.gridSpacing = 1.7;
-      const Converted c = convert(segmentationOf(centredGeometry(size, spacing, direction), sphere), options);
+      const Converted c = convert(segmentationOf(centredGeometry(size, spacing, direction), ballOffCentre), options);
       EXPECT_EQ(c.levelSet.voxelSize, 1.7);
       EXPECT_FALSE(c.report.shapeInterpolated) << "blocks of 4 x 4 x 1 voxels are nearly cubes";
-      const SurfaceError error = surfaceError(c.levelSet, sphere);
+      const SurfaceError error = surfaceError(c.levelSet, ballOffCentre);
       EXPECT_LT(error.rms, 0.05 * options.gridSpacing);
       EXPECT_LT(std::abs(error.mean), 0.01 * options.gridSpacing);
       EXPECT_LT(std::abs(c.volumeError()), 0.002);
@@ -108,15 +108,15 @@ TEST(LevelSetFromLabels, ACoarseGridKeepsPlaceAndVolume) {
 TEST(LevelSetFromLabels, LandsInPlaceForAnyAxesAndSpacing) {
   const Vector3d spacings[] = {{1, 1, 1}, {0.9, 1.1, 1.3}, {0.8, 0.8, 2}, {2, 0.8, 0.8}, {0.8, 2, 0.8}};
   for (const Matrix3d& direction :
-       {Matrix3d(Matrix3d::Identity()), oblique(), mirrored(), permuted(), sheared()})
+       {Matrix3d(Matrix3d::Identity()), obliqueAxes(), mirroredAxes(), permutedAxes(), shearedAxes()})
     for (const Vector3d& spacing : spacings) {
       const Vector3i size = (Vector3d::Constant(54).cwiseQuotient(spacing)).array().ceil().cast<int>();
-      const Converted c = convert(segmentationOf(centredGeometry(size, spacing, direction), sphere));
+      const Converted c = convert(segmentationOf(centredGeometry(size, spacing, direction), ballOffCentre));
       SCOPED_TRACE(testing::Message() << "spacing " << spacing.transpose() << " direction\n" << direction);
       const Matrix3d r = c.levelSet.frame.linear();
       EXPECT_LT((r * r.transpose() - Matrix3d::Identity()).norm(), 1e-9);
       EXPECT_NEAR(r.determinant(), 1, 1e-9) << "the frame is a rotation";
-      const SurfaceError error = surfaceError(c.levelSet, sphere);
+      const SurfaceError error = surfaceError(c.levelSet, ballOffCentre);
       const double largest = spacing.maxCoeff();
       // Across thick slices the caps may be off by a third of a slice (LEVELSET.md), plus the grid that
       // samples them.
@@ -154,7 +154,7 @@ TEST(LevelSetFromLabels, ATiltedPlateInThickSlicesHasNoStairs) {
 }
 
 TEST(LevelSetFromLabels, ThinPlatesAndTubesSurvive) {
-  const Matrix3d tilt = oblique();
+  const Matrix3d tilt = obliqueAxes();
   for (const double thickness : {1.2, 2.0, 3.0}) {
     const auto plate = [&](const Vector3d& x) {
       const Vector3d t = tilt.transpose() * x;
@@ -177,7 +177,7 @@ TEST(LevelSetFromLabels, ThinPlatesAndTubesSurvive) {
 
 TEST(LevelSetFromLabels, AFewVoxelsAreNeverLost) {
   for (const Vector3d& spacing : {Vector3d(1, 1, 1), Vector3d(0.9, 1.1, 1.4), Vector3d(0.3, 0.3, 1)})
-    for (const Matrix3d& direction : {Matrix3d(Matrix3d::Identity()), sheared()})
+    for (const Matrix3d& direction : {Matrix3d(Matrix3d::Identity()), shearedAxes()})
       for (const int voxels : {1, 2, 4}) {
         Segmentation s = segmentationOf(centredGeometry({9, 9, 9}, spacing, direction),
                                         [](const Vector3d&) { return 1.0; });
@@ -223,18 +223,18 @@ TEST(LevelSetFromLabels, SmoothingZeroKeepsTheVoxels) {
 }
 
 TEST(LevelSetFromLabels, TheGridSpacingIsTheCallersToChoose) {
-  const Segmentation s = segmentationOf(centredGeometry({48, 48, 48}, Vector3d::Ones()), sphere);
+  const Segmentation s = segmentationOf(centredGeometry({48, 48, 48}, Vector3d::Ones()), ballOffCentre);
   for (const double spacing : {0.5, 0.73, 2.0}) {
     const Converted c = convert(s, {.gridSpacing = spacing});
     EXPECT_EQ(c.levelSet.voxelSize, spacing);
-    EXPECT_LT(surfaceError(c.levelSet, sphere).rms, 0.1 * std::max(1.0, spacing));
+    EXPECT_LT(surfaceError(c.levelSet, ballOffCentre).rms, 0.1 * std::max(1.0, spacing));
     EXPECT_LT(std::abs(c.volumeError()), 0.005);
   }
 }
 
 TEST(LevelSetFromLabels, TheNumberOfThreadsDoesNotShow) {
   for (const Vector3d& spacing : {Vector3d(1, 1.2, 1.3), Vector3d(0.8, 0.8, 2)}) {
-    const Segmentation s = segmentationOf(centredGeometry({60, 60, 50}, spacing, oblique()), sphere);
+    const Segmentation s = segmentationOf(centredGeometry({60, 60, 50}, spacing, obliqueAxes()), ballOffCentre);
     const auto run = [&] { return convert(s).levelSet.grid->grid; };
     const auto one = test::onThreads(1, run), four = test::onThreads(4, run);
     auto a = one->tree().cbeginLeaf(), b = four->tree().cbeginLeaf();

@@ -13,28 +13,28 @@ namespace {
 using Eigen::Vector3d;
 
 template <typename Function>
-LevelSet levelSetOf(const Function& phi) {
+LevelSet narrowBandOf(const Function& phi) {
   const DenseField field = test::sampled({60, 60, 60}, Vector3d::Constant(-14.9), Vector3d::Constant(0.5),
                                          [&](const Vector3d& x) { return std::clamp(phi(x), -2.0, 2.0); });
   return levelSetFromField({field, Eigen::Isometry3d::Identity(), 0.5, 2});
 }
 
 double ball(const Vector3d& x, const Vector3d& centre, double radius) { return (x - centre).norm() - radius; }
-double torus(const Vector3d& x) { return std::hypot(std::hypot(x.x(), x.y()) - 8, x.z()) - 3; }
+double torusOf8(const Vector3d& x) { return std::hypot(std::hypot(x.x(), x.y()) - 8, x.z()) - 3; }
 
 TEST(LevelSetMeasures, VolumesOfBallAndTorus) {
   const double pi = std::numbers::pi;
-  const LevelSet sphere = levelSetOf([](const Vector3d& x) { return ball(x, {0.1, 0.2, 0}, 10); });
+  const LevelSet sphere = narrowBandOf([](const Vector3d& x) { return ball(x, {0.1, 0.2, 0}, 10); });
   EXPECT_NEAR(levelSetVolume(sphere) / (4 * pi / 3 * 1000), 1, 1e-4) << "20 voxels of radius: fourth order";
-  EXPECT_NEAR(levelSetVolume(levelSetOf(torus)) / (2 * pi * pi * 8 * 9), 1, 1e-3) << "6 voxels of radius";
+  EXPECT_NEAR(levelSetVolume(narrowBandOf(torusOf8)) / (2 * pi * pi * 8 * 9), 1, 1e-3) << "6 voxels of radius";
 }
 
 TEST(LevelSetMeasures, EulerCharacteristicTellsBallTorusShellAndPair) {
-  const auto topology = [](auto&& phi) { return levelSetTopology(levelSetOf(phi)); };
+  const auto topology = [](auto&& phi) { return levelSetTopology(narrowBandOf(phi)); };
   const LevelSetTopology one = topology([](const Vector3d& x) { return ball(x, {0, 0, 0}, 10); });
   EXPECT_EQ(one.components, 1);
   EXPECT_EQ(one.eulerCharacteristic, 2);
-  const LevelSetTopology ring = topology(torus);
+  const LevelSetTopology ring = topology(torusOf8);
   EXPECT_EQ(ring.components, 1);
   EXPECT_EQ(ring.eulerCharacteristic, 0);
   const LevelSetTopology shell =
@@ -80,13 +80,13 @@ TEST(LevelSetMeasures, EveryPieceOfNoiseHasAClosedSurface) {
 }
 
 TEST(LevelSetMeasures, AnEmptyLevelSetHasNothing) {
-  const LevelSet nothing = levelSetOf([](const Vector3d&) { return 1.9; });
+  const LevelSet nothing = narrowBandOf([](const Vector3d&) { return 1.9; });
   EXPECT_EQ(levelSetTopology(nothing).components, 0);
   EXPECT_EQ(levelSetVolume(nothing), 0);
 }
 
 TEST(LevelSetMeasures, TheNumberOfThreadsDoesNotShow) {
-  const LevelSet sphere = levelSetOf(torus);
+  const LevelSet sphere = narrowBandOf(torusOf8);
   const auto run = [&] { return levelSetVolume(sphere); };
   EXPECT_EQ(test::onThreads(1, run), test::onThreads(4, run));
 }

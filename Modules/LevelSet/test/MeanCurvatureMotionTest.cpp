@@ -16,8 +16,8 @@ using Eigen::Vector3d;
 using Eigen::Vector3i;
 using test::sampled;
 
-constexpr double kBand = 4;
-constexpr double kPi = std::numbers::pi;
+constexpr double kMotionBand = 4;
+using std::numbers::pi;
 
 TEST(MeanCurvatureMotion, ABallShrinksAsItMust) {
   const double h = 0.7;
@@ -28,8 +28,8 @@ TEST(MeanCurvatureMotion, ABallShrinksAsItMust) {
     const Vector3i size = Vector3i::Constant(static_cast<int>(2 * samples) + 12);
     DenseField phi = sampled(size, Vector3d::Constant(-radius - 5.3 * h), Vector3d::Constant(h),
                              [&](const Vector3d& x) { return x.norm() - radius; });
-    meanCurvatureMotion(phi, h, time, kBand * h);
-    const double shrunk = std::cbrt(fieldVolume(phi, Vector3d::Constant(h)) * 3 / (4 * kPi));
+    meanCurvatureMotion(phi, h, time, kMotionBand * h);
+    const double shrunk = std::cbrt(fieldVolume(phi, Vector3d::Constant(h)) * 3 / (4 * pi));
     EXPECT_NEAR(shrunk / std::sqrt(radius * radius - 4 * time), 1, 0.005)
         << samples << ", " << time << " mm^2";
   }
@@ -42,8 +42,8 @@ TEST(MeanCurvatureMotion, ACylinderShrinksAsItMust) {
       const int n = static_cast<int>(2 * radius) + 12;
       DenseField phi = sampled({5, n, n}, {0, -radius - 5.3, -radius - 5.8}, Vector3d::Ones(),
                                [&](const Vector3d& x) { return x.tail<2>().norm() - radius; });
-      meanCurvatureMotion(phi, 1, time, kBand);
-      const double shrunk = std::sqrt(fieldVolume(phi, Vector3d::Ones()) / 5 / kPi);
+      meanCurvatureMotion(phi, 1, time, kMotionBand);
+      const double shrunk = std::sqrt(fieldVolume(phi, Vector3d::Ones()) / 5 / pi);
       EXPECT_NEAR(shrunk / std::sqrt(radius * radius - 2 * time), 1, 0.005)
           << radius << " mm, " << time << " mm^2";
     }
@@ -54,7 +54,7 @@ TEST(MeanCurvatureMotion, TheStairsOfATiltedPlaneFlatten) {
   const Vector3d normal = Vector3d(0.17, 0.1, 1).normalized(), origin(-24, -24, -15.3);
   DenseField phi = sampled({48, 48, 30}, origin, Vector3d::Ones(),
                            [&](const Vector3d& x) { return x.dot(normal) < 0 ? -0.5 : 0.5; });
-  fastMarching(phi, Vector3d::Ones(), kBand);
+  fastMarching(phi, Vector3d::Ones(), kMotionBand);
   /// The largest distance of the surface from the plane, voxels, away from the border.
   const auto amplitude = [&] {
     double worst = 0;
@@ -66,7 +66,7 @@ TEST(MeanCurvatureMotion, TheStairsOfATiltedPlaneFlatten) {
     return worst;
   };
   EXPECT_GT(amplitude(), 0.4);
-  meanCurvatureMotion(phi, 1, 1.5, kBand);
+  meanCurvatureMotion(phi, 1, 1.5, kMotionBand);
   EXPECT_LT(amplitude(), 0.1);
 }
 
@@ -77,7 +77,7 @@ TEST(MeanCurvatureMotion, APlaneAndAPlateStay) {
   for (const bool thin : {false, true}) {
     const auto exact = [&](const Vector3d& x) { return thin ? plate(x) : plane(x); };
     DenseField phi = sampled(Vector3i::Constant(41), origin, Vector3d::Ones(), exact);
-    meanCurvatureMotion(phi, 1, 2, kBand);
+    meanCurvatureMotion(phi, 1, 2, kMotionBand);
     double worst = 0;
     for (int k = 10; k < 31; ++k)
       for (int j = 10; j < 31; ++j)
@@ -94,11 +94,11 @@ TEST(MeanCurvatureMotion, WhatShrinksAwayIsGone) {
   DenseField phi = sampled({40, 20, 20}, {-10, -10, -10}, Vector3d::Ones(), [](const Vector3d& x) {
     return std::min(x.norm() - 6, (x - Vector3d(18, 0, 0)).norm() - 2.2);
   });
-  meanCurvatureMotion(phi, 1, 2, kBand);  // the small ball's time is 2.2^2/4 = 1.2
+  meanCurvatureMotion(phi, 1, 2, kMotionBand);  // the small ball's time is 2.2^2/4 = 1.2
   for (int i = 25; i < 40; ++i) EXPECT_GT(phi(i, 10, 10), 0);
   EXPECT_LT(phi(10, 10, 10), 0);
-  meanCurvatureMotion(phi, 1, 10, kBand);  // the large one's is 9
-  for (const float v : phi.values) ASSERT_EQ(v, float{kBand});
+  meanCurvatureMotion(phi, 1, 10, kMotionBand);  // the large one's is 9
+  for (const float v : phi.values) ASSERT_EQ(v, float{kMotionBand});
 }
 
 TEST(MeanCurvatureMotion, NoiseAndFlatFieldsStayBounded) {
@@ -106,8 +106,8 @@ TEST(MeanCurvatureMotion, NoiseAndFlatFieldsStayBounded) {
     DenseField phi = sampled({20, 20, 20}, Vector3d::Zero(), Vector3d::Ones(), [&](const Vector3d& x) {
       return height * std::round(4 * std::sin(17 * x.x() + 5 * x.y() * x.z()));
     });
-    meanCurvatureMotion(phi, 1, 1, kBand);
-    for (const float v : phi.values) ASSERT_LE(std::abs(v), kBand);
+    meanCurvatureMotion(phi, 1, 1, kMotionBand);
+    for (const float v : phi.values) ASSERT_LE(std::abs(v), kMotionBand);
   }
 }
 
@@ -117,8 +117,8 @@ TEST(MeanCurvatureMotion, ThePartBeyondANarrowBandDoesNotMatter) {
                    [&](const Vector3d& x) { return std::clamp(x.norm() - 10, -limit, limit); });
   };
   DenseField wide = ball(1e9), narrow = ball(2.5);
-  meanCurvatureMotion(wide, 1, 6, kBand);
-  meanCurvatureMotion(narrow, 1, 6, kBand);
+  meanCurvatureMotion(wide, 1, 6, kMotionBand);
+  meanCurvatureMotion(narrow, 1, 6, kMotionBand);
   EXPECT_NEAR(fieldVolume(narrow, Vector3d::Ones()) / fieldVolume(wide, Vector3d::Ones()), 1, 1e-3);
 }
 
@@ -126,7 +126,7 @@ TEST(MeanCurvatureMotion, NoTimeChangesNothing) {
   DenseField phi = sampled({9, 9, 9}, Vector3d::Constant(-4), Vector3d::Ones(),
                            [](const Vector3d& x) { return x.norm() - 3; });
   const DenseField before = phi;
-  EXPECT_EQ(meanCurvatureMotion(phi, 1, 0, kBand).steps, 0);
+  EXPECT_EQ(meanCurvatureMotion(phi, 1, 0, kMotionBand).steps, 0);
   EXPECT_EQ(phi.values, before.values);
 }
 
@@ -135,7 +135,7 @@ TEST(MeanCurvatureMotion, TheNumberOfThreadsDoesNotShow) {
     DenseField phi = sampled(
         {40, 40, 40}, Vector3d::Constant(-19.7), Vector3d::Ones(),
         [](const Vector3d& x) { return std::max(x.cwiseAbs().maxCoeff() - 12, 8 - x.head<2>().norm()); });
-    meanCurvatureMotion(phi, 1, 3, kBand);
+    meanCurvatureMotion(phi, 1, 3, kMotionBand);
     return phi.values;
   };
   EXPECT_EQ(test::onThreads(1, run), test::onThreads(4, run));
@@ -143,12 +143,12 @@ TEST(MeanCurvatureMotion, TheNumberOfThreadsDoesNotShow) {
 
 TEST(MeanCurvatureMotion, RefusesArgumentsOutOfRange) {
   DenseField phi({5, 5, 5}, 1.0F);
-  EXPECT_THROW(meanCurvatureMotion(phi, 0, 1, kBand), std::invalid_argument);
-  EXPECT_THROW(meanCurvatureMotion(phi, 1, -1, kBand), std::invalid_argument);
-  EXPECT_THROW(meanCurvatureMotion(phi, 1, 1.1e4, kBand), std::invalid_argument);
+  EXPECT_THROW(meanCurvatureMotion(phi, 0, 1, kMotionBand), std::invalid_argument);
+  EXPECT_THROW(meanCurvatureMotion(phi, 1, -1, kMotionBand), std::invalid_argument);
+  EXPECT_THROW(meanCurvatureMotion(phi, 1, 1.1e4, kMotionBand), std::invalid_argument);
   EXPECT_THROW(meanCurvatureMotion(phi, 1, 1, 0), std::invalid_argument);
-  EXPECT_THROW(meanCurvatureMotion(phi, 1, 1, kBand, {.cfl = 0.2}), std::invalid_argument);
-  EXPECT_THROW(meanCurvatureMotion(phi, 1, 1, kBand, {.stepsPerRedistance = 0}), std::invalid_argument);
+  EXPECT_THROW(meanCurvatureMotion(phi, 1, 1, kMotionBand, {.cfl = 0.2}), std::invalid_argument);
+  EXPECT_THROW(meanCurvatureMotion(phi, 1, 1, kMotionBand, {.stepsPerRedistance = 0}), std::invalid_argument);
 }
 
 }  // namespace

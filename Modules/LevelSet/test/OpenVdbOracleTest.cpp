@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 using Eigen::Vector3i;
 
 constexpr int kSize = 48;
-constexpr double kSpacing = 0.5, kBand = 3 * kSpacing;
+constexpr double kOracleSpacing = 0.5, kOracleBand = 3 * kOracleSpacing;
 
 /// A ball with a waist and a bump: both signs of both curvatures.
 double shape(const Vector3d& x) {
@@ -27,23 +27,23 @@ double shape(const Vector3d& x) {
 }
 
 DenseField distanceField() {
-  DenseField phi = test::sampled(Vector3i::Constant(kSize), Vector3d::Constant(-kSpacing * kSize / 2 + 0.1),
-                                 Vector3d::Constant(kSpacing), shape);
-  fastMarching(phi, Vector3d::Constant(kSpacing), kBand, {.closestPointLayers = 2});
+  DenseField phi = test::sampled(Vector3i::Constant(kSize), Vector3d::Constant(-kOracleSpacing * kSize / 2 + 0.1),
+                                 Vector3d::Constant(kOracleSpacing), shape);
+  fastMarching(phi, Vector3d::Constant(kOracleSpacing), kOracleBand, {.closestPointLayers = 2});
   return phi;
 }
 
 openvdb::FloatGrid::Ptr toGrid(const DenseField& phi) {
   openvdb::initialize();
-  openvdb::FloatGrid::Ptr grid = openvdb::FloatGrid::create(static_cast<float>(kBand));
-  grid->setTransform(openvdb::math::Transform::createLinearTransform(kSpacing));
+  openvdb::FloatGrid::Ptr grid = openvdb::FloatGrid::create(static_cast<float>(kOracleBand));
+  grid->setTransform(openvdb::math::Transform::createLinearTransform(kOracleSpacing));
   grid->setGridClass(openvdb::GRID_LEVEL_SET);
   auto values = grid->getAccessor();
   for (int k = 0; k < kSize; ++k)
     for (int j = 0; j < kSize; ++j)
       for (int i = 0; i < kSize; ++i) {
         const float v = phi(i, j, k);
-        if (std::abs(v) < kBand)
+        if (std::abs(v) < kOracleBand)
           values.setValue({i, j, k}, v);
         else if (v < 0)
           values.setValueOff({i, j, k}, v);
@@ -51,20 +51,20 @@ openvdb::FloatGrid::Ptr toGrid(const DenseField& phi) {
   return grid;
 }
 
-struct Difference {
+struct FieldDifference {
   double rms = 0, max = 0;  ///< voxels
 };
 
 /// Beside the surface.
-Difference difference(const DenseField& phi, const openvdb::FloatGrid& grid) {
-  Difference d;
+FieldDifference difference(const DenseField& phi, const openvdb::FloatGrid& grid) {
+  FieldDifference d;
   int count = 0;
   auto values = grid.getConstAccessor();
   for (int k = 0; k < kSize; ++k)
     for (int j = 0; j < kSize; ++j)
       for (int i = 0; i < kSize; ++i) {
-        if (!(std::abs(phi(i, j, k)) < 0.5 * kSpacing)) continue;
-        const double miss = std::abs(phi(i, j, k) - values.getValue({i, j, k})) / kSpacing;
+        if (!(std::abs(phi(i, j, k)) < 0.5 * kOracleSpacing)) continue;
+        const double miss = std::abs(phi(i, j, k) - values.getValue({i, j, k})) / kOracleSpacing;
         d.rms += miss * miss;
         d.max = std::max(d.max, miss);
         ++count;
@@ -81,8 +81,8 @@ TEST(OpenVdbOracle, MotionByMeanCurvature) {
   constexpr int kSteps = 12;  // one call advances b t = h^2/6
   for (int step = 0; step < kSteps; ++step) filter.meanCurvature();
   const DenseField before = phi;
-  meanCurvatureMotion(phi, kSpacing, kSteps * kSpacing * kSpacing / 6, kBand);
-  const Difference moved = difference(phi, *toGrid(before)), left = difference(phi, *grid);
+  meanCurvatureMotion(phi, kOracleSpacing, kSteps * kOracleSpacing * kOracleSpacing / 6, kOracleBand);
+  const FieldDifference moved = difference(phi, *toGrid(before)), left = difference(phi, *grid);
   EXPECT_GT(moved.rms, 0.3) << "the surface has moved";
   EXPECT_LT(left.rms, 0.02);
   EXPECT_LT(left.max, 0.1);
@@ -91,15 +91,15 @@ TEST(OpenVdbOracle, MotionByMeanCurvature) {
 TEST(OpenVdbOracle, ReinitializationByThePdeAndByTheMarch) {
   const DenseField distance = distanceField();
   DenseField bent = distance;
-  for (float& v : bent.values) v = std::clamp(1.6F * v, -float{kBand}, float{kBand});
+  for (float& v : bent.values) v = std::clamp(1.6F * v, -float{kOracleBand}, float{kOracleBand});
   const openvdb::FloatGrid::Ptr grid = toGrid(bent);
   openvdb::tools::LevelSetFilter<openvdb::FloatGrid> filter(*grid);
   filter.setSpatialScheme(openvdb::math::HJWENO5_BIAS);
   filter.setNormCount(15);
   filter.normalize();
   DenseField pde = bent, march = bent;
-  const ReinitializeReport report = reinitialize(pde, kSpacing, kBand);
-  fastMarching(march, Vector3d::Constant(kSpacing), kBand, {.closestPointLayers = 2});
+  const ReinitializeReport report = reinitialize(pde, kOracleSpacing, kOracleBand);
+  fastMarching(march, Vector3d::Constant(kOracleSpacing), kOracleBand, {.closestPointLayers = 2});
   EXPECT_TRUE(report.converged);
   for (const DenseField& ours : {pde, march}) {
     EXPECT_LT(difference(ours, *grid).rms, 0.02) << "OpenVDB alone shifts single samples by up to .24";
@@ -111,9 +111,9 @@ TEST(OpenVdbOracle, ReinitializationByThePdeAndByTheMarch) {
 TEST(OpenVdbOracle, TheFirstOrderMarchMovesTheSurfaceAsFarAsSweepingDoes) {
   const DenseField distance = distanceField();
   DenseField ours = distance;
-  fastMarching(ours, Vector3d::Constant(kSpacing), kBand, {.order = 1});
+  fastMarching(ours, Vector3d::Constant(kOracleSpacing), kOracleBand, {.order = 1});
   const openvdb::FloatGrid::Ptr swept = openvdb::tools::sdfToSdf(*toGrid(distance));
-  const Difference d = difference(ours, *swept);
+  const FieldDifference d = difference(ours, *swept);
   EXPECT_LT(d.rms, 0.05);
   EXPECT_GT(difference(distance, *swept).rms, difference(distance, *toGrid(ours)).rms)
       << "closest points shift the surface less than crossings along the axes";

@@ -36,12 +36,12 @@ void forEachNear(const DenseField& phi, const Visit& visit) {
   EXPECT_GT(visited, 100);
 }
 
-double torus(const Vector3d& x) { return std::hypot(std::hypot(x.x(), x.y()) - 9, x.z()) - 4.5; }
+double curvedTorus(const Vector3d& x) { return std::hypot(std::hypot(x.x(), x.y()) - 9, x.z()) - 4.5; }
 
 TEST(PrincipalCurvatures, ATorusHasOneOverRAndCosTOverItsDistanceFromTheAxis) {
   double worst = 0, sum = 0;
   int count = 0;
-  forEachNear(raster(torus), [&](const Vector3d& x, double k1, double k2) {
+  forEachNear(raster(curvedTorus), [&](const Vector3d& x, double k1, double k2) {
     const double axis = std::hypot(x.x(), x.y()), r = std::hypot(axis - 9, x.z());
     const double across = 1 / r, around = (axis - 9) / r / axis;  // cos t / (R + r cos t)
     const double miss =
@@ -76,7 +76,7 @@ TEST(PrincipalCurvatures, ASaddleHasOppositeOnes) {
 }
 
 TEST(PrincipalCurvatures, TheScaleOfPhiDoesNotMatterAndItsSignDoes) {
-  const DenseField phi = raster(torus);
+  const DenseField phi = raster(curvedTorus);
   DenseField turned = phi;
   for (float& v : turned.values) v *= -3;
   const Vector3i at(16, 27, 18);

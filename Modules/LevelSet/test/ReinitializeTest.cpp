@@ -15,11 +15,11 @@ using Eigen::Vector3d;
 using Eigen::Vector3i;
 using test::sampled;
 
-constexpr double kBand = 4;
+constexpr double kWholeBand = 4;
 const Vector3d kOne = Vector3d::Ones();
 
-double ball(const Vector3d& x) { return x.norm() - 20; }
-double torus(const Vector3d& x) { return std::hypot(std::hypot(x.x(), x.y()) - 15, x.z()) - 7; }
+double ballOf20(const Vector3d& x) { return x.norm() - 20; }
+double torusOf15(const Vector3d& x) { return std::hypot(std::hypot(x.x(), x.y()) - 15, x.z()) - 7; }
 double plate(const Vector3d& x) { return std::abs(x.dot(Vector3d(0.3, 0.2, 1).normalized())) - 1.5; }
 
 /// A field with the zero set of `exact` whose slope runs from 1 to 2.
@@ -70,9 +70,9 @@ Quality qualityOf(const DenseField& phi, const Function& exact, int border = 2) 
 }
 
 TEST(Reinitialize, MakesABentFieldADistanceAndLeavesTheSurface) {
-  for (const auto& exact : {ball, torus}) {
+  for (const auto& exact : {ballOf20, torusOf15}) {
     DenseField phi = raster(56, bent(exact));
-    const ReinitializeReport report = reinitialize(phi, 1, kBand);
+    const ReinitializeReport report = reinitialize(phi, 1, kWholeBand);
     const Quality q = qualityOf(phi, exact);
     EXPECT_LT(q.rms, 0.005);
     EXPECT_LT(q.max, 0.02);
@@ -105,19 +105,19 @@ TEST(Reinitialize, IsOfSecondOrder) {
 }
 
 TEST(Reinitialize, ADistanceStaysAsItIs) {
-  DenseField phi = raster(50, ball);
-  const ReinitializeReport report = reinitialize(phi, 1, kBand);
+  DenseField phi = raster(50, ballOf20);
+  const ReinitializeReport report = reinitialize(phi, 1, kWholeBand);
   EXPECT_TRUE(report.converged);
-  const Quality q = qualityOf(phi, ball);
+  const Quality q = qualityOf(phi, ballOf20);
   EXPECT_LT(q.rms, 0.001);
   EXPECT_LT(q.max, 0.002);
 }
 
 TEST(Reinitialize, TwentyRunsKeepTheBall) {
-  DenseField phi = raster(50, ball);
+  DenseField phi = raster(50, ballOf20);
   const double before = fieldVolume(phi, kOne);
   for (int run = 0; run < 20; ++run) reinitialize(phi, 1, 3);
-  const Quality q = qualityOf(phi, ball);
+  const Quality q = qualityOf(phi, ballOf20);
   EXPECT_LT(q.rms, 0.005);
   EXPECT_LT(q.max, 0.02);
   EXPECT_NEAR(fieldVolume(phi, kOne) / before, 1, 1e-3);
@@ -134,15 +134,15 @@ TEST(Reinitialize, TwentyRunsKeepAPlateOfThreeVoxels) {
 
 /// The other engine, for the same targets.
 TEST(Reinitialize, TwentyMarchesFromLayersOfClosestPointsKeepBallAndTorus) {
-  for (const auto& exact : {ball, torus}) {
+  for (const auto& exact : {ballOf20, torusOf15}) {
     DenseField phi = raster(56, bent(exact));
-    fastMarching(phi, kOne, kBand, {.closestPointLayers = 2});
+    fastMarching(phi, kOne, kWholeBand, {.closestPointLayers = 2});
     const Quality once = qualityOf(phi, exact);
     EXPECT_LT(once.rms, 0.005);
     EXPECT_LT(once.max, 0.02);
     EXPECT_LT(once.gradient, 0.005);
     const double before = fieldVolume(phi, kOne);
-    for (int run = 1; run < 20; ++run) fastMarching(phi, kOne, kBand, {.closestPointLayers = 2});
+    for (int run = 1; run < 20; ++run) fastMarching(phi, kOne, kWholeBand, {.closestPointLayers = 2});
     const Quality q = qualityOf(phi, exact);
     EXPECT_LT(q.rms, 0.005);
     EXPECT_LT(q.max, 0.02);
@@ -154,7 +154,7 @@ TEST(Reinitialize, SpacingIsAUnitOfLength) {
   const double h = 0.4;
   DenseField one = raster(30, bent([](const Vector3d&x) { return x.norm() - 9; })), scaled = one;
   for (float& v : scaled.values) v *= static_cast<float>(h);
-  const ReinitializeReport a = reinitialize(one, 1, kBand), b = reinitialize(scaled, h, kBand * h);
+  const ReinitializeReport a = reinitialize(one, 1, kWholeBand), b = reinitialize(scaled, h, kWholeBand * h);
   EXPECT_NEAR(b.largestMovement, a.largestMovement * h, 1e-4);
   for (std::size_t n = 0; n < one.values.size(); ++n) ASSERT_NEAR(scaled.values[n], h * one.values[n], 1e-4);
 }
@@ -174,7 +174,7 @@ TEST(Reinitialize, NoSampleChangesSideAndTheBandIsClamped) {
 
 TEST(Reinitialize, SaysWhenItDidNotGetThere) {
   DenseField phi = raster(40, [](const Vector3d& x) { return 5 * (x.norm() - 12); });
-  const ReinitializeReport report = reinitialize(phi, 1, kBand, {.maxIterations = 2});
+  const ReinitializeReport report = reinitialize(phi, 1, kWholeBand, {.maxIterations = 2});
   EXPECT_FALSE(report.converged);
   EXPECT_EQ(report.iterations, 2);
   EXPECT_GT(report.maxGradientError, 1);
@@ -183,7 +183,7 @@ TEST(Reinitialize, SaysWhenItDidNotGetThere) {
 TEST(Reinitialize, TheNumberOfThreadsDoesNotShow) {
   const auto run = [] {
     DenseField phi = raster(40, bent([](const Vector3d& x) { return x.norm() - 12; }));
-    const ReinitializeReport report = reinitialize(phi, 1, kBand, {.maxIterations = 10});
+    const ReinitializeReport report = reinitialize(phi, 1, kWholeBand, {.maxIterations = 10});
     phi.values.push_back(static_cast<float>(report.meanGradientError));
     return phi.values;
   };

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 using test::ball;
 using test::levelSetOf;
 
-double ballVolume(double radius) { return 4 * std::numbers::pi / 3 * std::pow(radius, 3); }
+double volumeOfBall(double radius) { return 4 * std::numbers::pi / 3 * std::pow(radius, 3); }
 
 /// Balls of radius 7, 4 and 2.5 apart from each other.
 DenseLevelSet threeBalls() {
@@ -30,7 +30,7 @@ TEST(ShapeParts, ComponentsAreTheBallsLargestFirst) {
   const std::array radii{7.0, 4.0, 2.5};
   const std::array centers{Vector3d(-8, -8, 0), Vector3d(10, 3, 0), Vector3d(0, 12, 5)};
   for (std::size_t n = 0; n < 3; ++n) {
-    EXPECT_NEAR(shapeVolume(parts[n]) / ballVolume(radii[n]), 1, 0.02) << "a ball of few samples";
+    EXPECT_NEAR(shapeVolume(parts[n]) / volumeOfBall(radii[n]), 1, 0.02) << "a ball of few samples";
     EXPECT_LT((shapeCentroid(parts[n]) - centers[n]).norm(), 0.02);
     EXPECT_EQ(shapeTopology(parts[n]).components, 1);
     EXPECT_TRUE(firstSampleOn({}, parts[n])) << "still on the lattice";
@@ -39,10 +39,10 @@ TEST(ShapeParts, ComponentsAreTheBallsLargestFirst) {
 
 TEST(ShapeParts, KeepLargestAndDropSmall) {
   const DenseLevelSet balls = threeBalls();
-  EXPECT_NEAR(shapeVolume(keepLargest(balls)) / ballVolume(7), 1, 0.005);
+  EXPECT_NEAR(shapeVolume(keepLargest(balls)) / volumeOfBall(7), 1, 0.005);
   EXPECT_EQ(shapeTopology(keepLargest(balls, 2)).components, 2);
   EXPECT_EQ(keepLargest(balls, 3).phi.values, balls.phi.values) << "nothing to do";
-  EXPECT_EQ(shapeTopology(dropSmall(balls, 0.5 * ballVolume(4))).components, 2);
+  EXPECT_EQ(shapeTopology(dropSmall(balls, 0.5 * volumeOfBall(4))).components, 2);
   EXPECT_EQ(shapeTopology(dropSmall(balls, 1e9)).components, 0);
   EXPECT_THROW(keepLargest(balls, 0), std::invalid_argument);
 }
@@ -54,10 +54,10 @@ TEST(ShapeParts, FillCavitiesUpToAVolume) {
   ASSERT_EQ(shapeTopology(hollow), (ShapeTopology{1, 2}));
   const DenseLevelSet full = fillCavities(hollow);
   EXPECT_EQ(shapeTopology(full), (ShapeTopology{1, 0}));
-  EXPECT_NEAR(shapeVolume(full) / ballVolume(16), 1, 1e-3);
-  const DenseLevelSet half = fillCavities(hollow, 2 * ballVolume(3));
+  EXPECT_NEAR(shapeVolume(full) / volumeOfBall(16), 1, 1e-3);
+  const DenseLevelSet half = fillCavities(hollow, 2 * volumeOfBall(3));
   EXPECT_EQ(shapeTopology(half), (ShapeTopology{1, 1}));
-  EXPECT_NEAR(shapeVolume(half), ballVolume(16) - ballVolume(5), 0.002 * ballVolume(16));
+  EXPECT_NEAR(shapeVolume(half), volumeOfBall(16) - volumeOfBall(5), 0.002 * volumeOfBall(16));
 }
 
 double throughZ(const Vector3d& x, double radius) { return x.head<2>().norm() - radius; }

@@ -17,15 +17,15 @@ using Eigen::Vector3i;
 using test::sampled;
 using test::volumeOf;
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Volume of the convex hull of two balls of radii R and r, their centres h apart.
 double roundConeVolume(double R, double r, double h) {
   const double slope = (R - r) / h, flat = std::sqrt(1 - slope * slope);
-  const auto cap = [](double radius, double height) { return kPi * height * height * (radius - height / 3); };
+  const auto cap = [](double radius, double height) { return pi * height * height * (radius - height / 3); };
   const double foot = R * flat, rim = r * flat, height = h - (R - r) * slope;
   return cap(R, R * (1 + slope)) + cap(r, r * (1 - slope)) +
-         kPi * height / 3 * (foot * foot + foot * rim + rim * rim);
+         pi * height / 3 * (foot * foot + foot * rim + rim * rim);
 }
 
 struct Known {
@@ -36,21 +36,21 @@ struct Known {
 
 const std::vector<Known>& solids() {
   static const std::vector<Known> all{
-      {"sphere", sphere({1, 2, 3}, 9), 4 * kPi / 3 * 729},
-      {"ellipsoid", ellipsoid({1, 2, 3}, {12, 8, 6}), 4 * kPi / 3 * 12 * 8 * 6},
+      {"sphere", sphere({1, 2, 3}, 9), 4 * pi / 3 * 729},
+      {"ellipsoid", ellipsoid({1, 2, 3}, {12, 8, 6}), 4 * pi / 3 * 12 * 8 * 6},
       {"box", box({-8, -6, -4}, {9, 7, 5}), 17 * 13 * 9},
       {"rounded box", box({-8, -6, -4}, {9, 7, 5}, 3),
-       11 * 7 * 3 + 2 * 3 * (11 * 7 + 7 * 3 + 3 * 11) + kPi * 9 * (11 + 7 + 3) + 4 * kPi / 3 * 27},
-      {"cylinder", cylinder({-5, 2, -4}, {6, 5, 9}, 6), kPi * 36 * Vector3d(11, 3, 13).norm()},
-      {"capsule", capsule({-5, 2, -4}, {6, 5, 9}, 6), kPi * 36 * (Vector3d(11, 3, 13).norm() + 4.0 / 3 * 6)},
-      {"cone", cone({-5, 2, -4}, {6, 5, 9}, 9), kPi * 81 * Vector3d(11, 3, 13).norm() / 3},
-      {"frustum", cone({-5, 2, -4}, {6, 5, 9}, 4, 9), kPi * (16 + 36 + 81) * Vector3d(11, 3, 13).norm() / 3},
-      {"torus", torus({1, 2, 3}, {1, -2, 4}, 10, 4), 2 * kPi * kPi * 10 * 16},
+       11 * 7 * 3 + 2 * 3 * (11 * 7 + 7 * 3 + 3 * 11) + pi * 9 * (11 + 7 + 3) + 4 * pi / 3 * 27},
+      {"cylinder", cylinder({-5, 2, -4}, {6, 5, 9}, 6), pi * 36 * Vector3d(11, 3, 13).norm()},
+      {"capsule", capsule({-5, 2, -4}, {6, 5, 9}, 6), pi * 36 * (Vector3d(11, 3, 13).norm() + 4.0 / 3 * 6)},
+      {"cone", cone({-5, 2, -4}, {6, 5, 9}, 9), pi * 81 * Vector3d(11, 3, 13).norm() / 3},
+      {"frustum", cone({-5, 2, -4}, {6, 5, 9}, 4, 9), pi * (16 + 36 + 81) * Vector3d(11, 3, 13).norm() / 3},
+      {"torus", torus({1, 2, 3}, {1, -2, 4}, 10, 4), 2 * pi * pi * 10 * 16},
       {"round cone", tube({{-5, 2, -4}, {6, 5, 9}}, {8, 4}),
        roundConeVolume(8, 4, Vector3d(11, 3, 13).norm())},
       {"straight tube", tube({{-5, 2, -4}, {0.5, 3.5, 2.5}, {6, 5, 9}}, {6}),
-       kPi * 36 * (Vector3d(11, 3, 13).norm() + 4.0 / 3 * 6)},
-      {"ball in a ball", tube({{0, 0, 0}, {3, 0, 0}}, {4, 9}), 4 * kPi / 3 * 729},
+       pi * 36 * (Vector3d(11, 3, 13).norm() + 4.0 / 3 * 6)},
+      {"ball in a ball", tube({{0, 0, 0}, {3, 0, 0}}, {4, 9}), 4 * pi / 3 * 729},
       {"octahedron",
        convexHull({{9, 0, 0}, {-9, 0, 0}, {0, 9, 0}, {0, -9, 0}, {0, 0, 9}, {0, 0, -9}, {1, 1, 1}}),
        4.0 / 3 * 729}};
@@ -172,7 +172,7 @@ TEST(Solid, WhatLiesOutsideOfTheBoxIsCutOff) {
   const DenseLevelSet half = sampleSolid(halfSpace({0, 0, 1}, {0, 0, 2}), lattice, 4, within);
   EXPECT_NEAR(volumeOf(half), 18 * 16 * 8, 0.005 * 18 * 16 * 8);
   const DenseLevelSet ball = sampleSolid(sphere({0, 0, 7}, 5), lattice, 4, within);
-  EXPECT_NEAR(volumeOf(ball), 2 * kPi / 3 * 125, 0.005 * 2 * kPi / 3 * 125);
+  EXPECT_NEAR(volumeOf(ball), 2 * pi / 3 * 125, 0.005 * 2 * pi / 3 * 125);
   const DenseLevelSet none = sampleSolid(sphere({0, 0, 30}, 5), lattice, 4, within);
   for (const float phi : none.phi.values) EXPECT_EQ(phi, 4);
   const double inf = std::numeric_limits<double>::infinity();
@@ -203,7 +203,7 @@ TEST(Solid, MovesRigidlyAndScalesEvenly) {
     EXPECT_NEAR(solid.phi(motion * x), 1.5 * still.phi(x), 1e-12);
     EXPECT_TRUE(still.phi(x) >= 0 || solid.bounds.contains(motion * x));
   }
-  const double volume = kPi * Vector3d(7, 2, 1).norm() * (16 + 4 + 1) / 3 * std::pow(1.5, 3);
+  const double volume = pi * Vector3d(7, 2, 1).norm() * (16 + 4 + 1) / 3 * std::pow(1.5, 3);
   EXPECT_NEAR(volumeOf(sampled(solid, 2, test::tiltedLattice(0.5))), volume, 0.005 * volume);
   const Solid space = moved(halfSpace({0, 0, 0}, {0, 0, 1}), motion);
   EXPECT_FALSE(space.bounds.max().allFinite());

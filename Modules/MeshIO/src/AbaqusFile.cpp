@@ -11,7 +11,7 @@ namespace {
 constexpr int kDigits = 12;
 constexpr std::size_t kPerLine = 16;       // Abaqus takes no more
 constexpr std::size_t kLongestEnding = 9;  // _boundary
-constexpr NameRule kNames{.maxBytes = 80 - kLongestEnding,
+constexpr NameRule kAbaqusNames{.maxBytes = 80 - kLongestEnding,
                           .refused = " !\"#$%&'()*+,./:;<=>?@[\\]^`{|}~",
                           .asciiOnly = true,
                           .letterFirst = true};
@@ -28,7 +28,7 @@ void writeNumbers(TextWriter& text, const std::vector<std::int32_t>& numbers) {
   }
 }
 
-void writeNodes(TextWriter& text, const SolverMesh& mesh) {
+void writeAbaqusNodes(TextWriter& text, const SolverMesh& mesh) {
   text << "*NODE, NSET=Nall\n";
   for (std::size_t n = 0; n < mesh.nodeCount(); ++n) {
     const Eigen::Vector3d x = mesh.node(n);
@@ -63,10 +63,10 @@ void writeSets(TextWriter& text, const SolverPart& part, const std::string& name
 void writeAbaqus(const TissueMesh& tissues, const std::filesystem::path& file,
                  const WriteMeshOptions& options) {
   const SolverMesh mesh(tissues, options);
-  const std::vector<std::string> names = legalNames(mesh.regions(), kNames, kTaken);
+  const std::vector<std::string> names = legalNames(mesh.regions(), kAbaqusNames, kTaken);
   TextWriter text(file);
   text << "** " << coordinatesNote(options) << '\n';
-  writeNodes(text, mesh);
+  writeAbaqusNodes(text, mesh);
   for (std::size_t p = 0; p < names.size(); ++p) writeElements(text, mesh, mesh.parts()[p], names[p]);
   text << "*ELSET, ELSET=Eall\n";
   for (const std::string& name : names) text << name << '\n';

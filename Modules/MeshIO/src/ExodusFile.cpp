@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view kBoundary = "_boundary";
 constexpr std::size_t kNameWidth = 256;  // with a 0 at the end
-constexpr NameRule kNames{.maxBytes = kNameWidth - 1 - kBoundary.size(), .refused = ""};
+constexpr NameRule kExodusNames{.maxBytes = kNameWidth - 1 - kBoundary.size(), .refused = ""};
 
 /// The side of a tet by the corner opposite to it: side 1 has the corners 1 2 4, 2: 2 3 4, 3: 1 4 3, 4: 1
 /// 3 2.
@@ -23,7 +23,7 @@ constexpr std::array<int, 4> kExodusSide{2, 3, 1, 4};
 class ExodusWriter {
  public:
   ExodusWriter(const SolverMesh& mesh, const WriteMeshOptions& options)
-      : mesh_(mesh), tags_(mesh.tags()), names_(legalNames(mesh.regions(), kNames)), place_(mesh.tetCount()) {
+      : mesh_(mesh), tags_(mesh.tags()), names_(legalNames(mesh.regions(), kExodusNames)), place_(mesh.tetCount()) {
     for (const std::string& name : names_) sideNames_.push_back(name + std::string(kBoundary));
     std::int32_t place = 0;
     for (const SolverPart& part : mesh.parts())

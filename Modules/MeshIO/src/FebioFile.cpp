@@ -13,7 +13,7 @@ namespace {
 
 /// FEBio Studio copies names into 256 bytes. Comma, colon, dot, at and brackets mean something where sets are
 /// named.
-constexpr NameRule kNames{.maxBytes = 200, .refused = "\"&'<>,:.@[]"};
+constexpr NameRule kFebioNames{.maxBytes = 200, .refused = "\"&'<>,:.@[]"};
 
 struct UnitSystem {
   double perMm;
@@ -86,7 +86,7 @@ void writeMeshSection(TextWriter& text, const SolverMesh& mesh, const std::vecto
 void writeFebio(const TissueMesh& tissues, const std::filesystem::path& file,
                 const WriteMeshOptions& options) {
   const SolverMesh mesh(tissues, options);
-  const std::vector<std::string> names = legalNames(mesh.regions(), kNames);
+  const std::vector<std::string> names = legalNames(mesh.regions(), kFebioNames);
   TextWriter text(file);
   text << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
        << xmlComment(coordinatesNote(options)) << "\n<febio_spec version=\"4.0\">\n";

@@ -11,7 +11,7 @@
 namespace sinew {
 namespace {
 
-constexpr const char *kSpace = "SPACE", *kNames = "tissue_names", *kLabels = "tissue_labels";
+constexpr const char *kSpace = "SPACE", *kTissueNames = "tissue_names", *kTissueLabels = "tissue_labels";
 
 vtkStringArray* texts(vtkFieldData* field, const char* name) {
   return vtkStringArray::SafeDownCast(field->GetAbstractArray(name));
@@ -25,13 +25,13 @@ void addMarks(const TissueMesh& mesh, const WriteMeshOptions& options, vtkFieldD
     field->AddArray(textArray(kSpace, std::array<std::string, 1>{toString(options.space)}));
   std::vector<std::string> names;
   const auto labels = vtkSmartPointer<vtkTypeInt32Array>::New();
-  labels->SetName(kLabels);
+  labels->SetName(kTissueLabels);
   for (const TissueRegion& region : mesh.regions) {
     names.push_back(region.name);
     labels->InsertNextValue(region.label);
   }
   field->AddArray(labels);
-  field->AddArray(textArray(kNames, names));
+  field->AddArray(textArray(kTissueNames, names));
 }
 
 bool marksRas(vtkFieldData* field) {
@@ -41,8 +41,8 @@ bool marksRas(vtkFieldData* field) {
 }
 
 std::vector<TissueRegion> markedRegions(vtkFieldData* field) {
-  vtkStringArray* names = texts(field, kNames);
-  auto* labels = vtkIntArray::SafeDownCast(field->GetAbstractArray(kLabels));
+  vtkStringArray* names = texts(field, kTissueNames);
+  auto* labels = vtkIntArray::SafeDownCast(field->GetAbstractArray(kTissueLabels));
   if (names == nullptr || labels == nullptr || names->GetNumberOfValues() != labels->GetNumberOfValues())
     return {};
   std::vector<TissueRegion> regions;

@@ -41,7 +41,7 @@ const std::string kO = "0 0 0", kX = "1.5 0 0", kY = "0 1.5 0", kZ = "0 0 1.5";
 const std::string kStl = "solid tet\n" + stlFacet(kO, kY, kX) + stlFacet(kO, kX, kZ) + stlFacet(kO, kZ, kY) +
                          stlFacet(kX, kY, kZ) + "endsolid tet\n";
 
-double enclosedVolume(const TriangleMesh& mesh) {
+double volumeInside(const TriangleMesh& mesh) {
   double volume = 0;
   for (const auto& [a, b, c] : mesh.triangles)
     volume += mesh.nodes[a].dot(mesh.nodes[b].cross(mesh.nodes[c])) / 6;
@@ -57,7 +57,7 @@ TEST(TriangleFile, ReadsEveryFormat) {
     const TriangleMesh mesh = readTriangleMesh(folder / name);
     EXPECT_EQ(mesh.nodes.size(), 4u);
     EXPECT_EQ(mesh.triangles.size(), 4u);
-    EXPECT_DOUBLE_EQ(enclosedVolume(mesh), 1.5 * 1.5 * 1.5 / 6);  // positive: turned outwards
+    EXPECT_DOUBLE_EQ(volumeInside(mesh), 1.5 * 1.5 * 1.5 / 6);  // positive: turned outwards
   }
 }
 
@@ -78,7 +78,7 @@ TEST(TriangleFile, ReadsBinaryStlAlsoWhenItsCommentSaysSolid) {
     test::writeBytes(folder / "tet.stl", binaryStl(4, tet, comment));
     const TriangleMesh mesh = readTriangleMesh(folder / "tet.stl");
     EXPECT_EQ(mesh.nodes.size(), 4u);
-    EXPECT_DOUBLE_EQ(enclosedVolume(mesh), 1.5 * 1.5 * 1.5 / 6);
+    EXPECT_DOUBLE_EQ(volumeInside(mesh), 1.5 * 1.5 * 1.5 / 6);
   }
 }
 

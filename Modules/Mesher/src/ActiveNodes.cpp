@@ -15,18 +15,18 @@ constexpr double kGreenShape =
     1.2;  // F of a tet above this (BCC 1.157): its nodes take part wherever they lie
 
 /// The colour of nodes that do not move.
-constexpr std::uint8_t kNone = 255;
+constexpr std::uint8_t kNoColor = 255;
 
 /// Greedy, in the order of the nodes.
 /// @return color[n] of the mesh nodes
 std::vector<std::uint8_t> colorNodes(const TetMesh& mesh, const NodeStars& stars,
                                      const std::vector<std::int32_t>& nodes) {
-  std::vector<std::uint8_t> color(mesh.nodes.size(), kNone);
+  std::vector<std::uint8_t> color(mesh.nodes.size(), kNoColor);
   for (const std::int32_t n : nodes) {
     std::uint64_t used = 0;
     for (const std::int32_t t : stars.of(n)) {
       for (const std::int32_t v : mesh.tets[t]) {
-        if (color[v] != kNone) used |= std::uint64_t{1} << color[v];
+        if (color[v] != kNoColor) used |= std::uint64_t{1} << color[v];
       }
     }
     color[n] = static_cast<std::uint8_t>(std::countr_one(used));
@@ -36,11 +36,11 @@ std::vector<std::uint8_t> colorNodes(const TetMesh& mesh, const NodeStars& stars
 
 /// Nodes of one color side by side, and so their stars: a sweep reads memory from front to back.
 void sortByColor(const std::vector<std::uint8_t>& color, ActiveNodes& active) {
-  std::array<std::size_t, kNone> count{};
+  std::array<std::size_t, kNoColor> count{};
   for (const std::int32_t n : active.nodes) ++count[color[n]];
   for (std::size_t begin = 0; begin < active.size(); begin = active.colors.back().end)
     active.colors.push_back({begin, begin + count[active.colors.size()]});
-  std::array<std::size_t, kNone> next{};
+  std::array<std::size_t, kNoColor> next{};
   for (std::size_t c = 0; c < active.colors.size(); ++c) next[c] = active.colors[c].begin;
   std::vector<std::int32_t> sorted(active.size());
   for (const std::int32_t n : active.nodes) sorted[next[color[n]]++] = n;

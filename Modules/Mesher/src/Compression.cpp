@@ -19,7 +19,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t kGrain = 8;  // nodes per task, at least: a patch of the repair has few of a colour
+constexpr std::size_t kNodeGrain = 8;  // nodes per task, at least: a patch of the repair has few of a colour
 constexpr double kFirstCap = 6;    // F that the first snap may cost
 constexpr double kLastCap = 14;
 constexpr double kCapGrowth = 1.4;  // per round
@@ -125,7 +125,7 @@ class Compressor {
   template <class Star, class Move>
   void forEachNode(const Move& move) {
     for (const auto& [begin, end] : active_.colors) {
-      tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, kGrain), [&](const auto& range) {
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, kNodeGrain), [&](const auto& range) {
         Star star;
         for (std::size_t n = range.begin(); n < range.end(); ++n) {
           if (awake_[n] != 0) move(static_cast<std::int32_t>(n), star);
@@ -288,7 +288,7 @@ class Compressor {
             flag(face, flags);
           }
         },
-        kGrain);
+        kNodeGrain);
     return flags;
   }
 

@@ -106,11 +106,6 @@ class StarCheck {
   std::vector<std::int32_t> candidates_;
 };
 
-void sortUnique(std::vector<std::int32_t>& nodes) {
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-}
-
 /// choose(violation) for every violation at the suspects, ascending, without kNone.
 template <class Choose>
 std::vector<std::int32_t> chooseNodes(const KeptSet& set, const std::vector<std::int32_t>& suspects,

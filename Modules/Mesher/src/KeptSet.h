@@ -13,6 +13,11 @@ namespace sinew {
 /// No node.
 inline constexpr std::int32_t kNone = -1;
 
+inline void sortUnique(std::vector<std::int32_t>& nodes) {
+  std::ranges::sort(nodes);
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+}
+
 /// The kept set while it is repaired. A node is a boundary node when its star is kept in part.
 class KeptSet {
  public:

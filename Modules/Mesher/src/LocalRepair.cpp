@@ -27,7 +27,7 @@ constexpr std::size_t kMostEnveloped = 8;
 constexpr std::size_t kMostInner = 6;   // enveloped nodes that are given up in turn at a spot
 constexpr std::size_t kMostOuter = 10;  // boundary nodes that are taken in in turn at a spot
 constexpr double kWorstStart = 100;     // F with which a trial may begin
-constexpr std::size_t kGrain = 256;     // nodes of patches per task
+constexpr std::size_t kPatchGrain = 256;     // nodes of patches per task
 
 using Nodes = std::vector<std::int32_t>;
 
@@ -49,11 +49,6 @@ struct Patch {
   std::vector<Eigen::Vector3d> former{};  ///< positions of the region's nodes before an enveloping trial
   Badness before{}, after{};
 };
-
-void sortUnique(Nodes& nodes) {
-  std::ranges::sort(nodes);
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-}
 
 class LocalRepair {
  public:
@@ -304,7 +299,7 @@ class LocalRepair {
     TetMesh local = localMesh(patches, latticeNodes);
     std::vector<std::uint8_t> region(latticeNodes.size());
     forEach(
-        region.size(), [&](std::size_t n) { region[n] = isInner(latticeNodes[n]); }, kGrain);
+        region.size(), [&](std::size_t n) { region[n] = isInner(latticeNodes[n]); }, kPatchGrain);
     const CompressionReport report =
         compressOntoSurface(local, phi_, {.edgeLength = options_.edgeLength}, region);
     const std::vector<Spot> found = repairSpots(local, latticeNodes, report.unsnapped, options_.bounds);

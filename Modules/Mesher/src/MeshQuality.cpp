@@ -13,19 +13,19 @@
 namespace sinew {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 /// |V| / (longest edge)^3 up to which a tet counts as flat: its volume is rounding.
 constexpr double kFlatness = 1e-12;
 
 /// Tets per task; fixed, because it decides the order of the sums.
-constexpr std::size_t kGrain = 4096;
+constexpr std::size_t kTetGrain = 4096;
 
 double degrees(double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi; }
 
 /// Squared lengths of the six edges, shortest and longest.
 struct EdgeRange {
-  double shortest = kInfinity;
+  double shortest = kUnbounded;
   double longest = 0;
 };
 
@@ -70,7 +70,7 @@ TetQuality qualityOf(const std::array<Eigen::Vector3d, 4>& x, double longestEdge
   const double volume = (x[1] - x[0]).cross(x[2] - x[0]).dot(x[3] - x[0]) / 6;
   const bool flat = std::abs(volume) <= kFlatness * longestEdge * longestEdge * longestEdge;
   // The shortest altitude stands on the largest face:  V = A h / 3.
-  return {.aspectRatio = flat ? kInfinity : longestEdge * faces.largestArea / (3 * std::abs(volume)),
+  return {.aspectRatio = flat ? kUnbounded : longestEdge * faces.largestArea / (3 * std::abs(volume)),
           .minDihedralDeg = degrees(*largestCosine),
           .maxDihedralDeg = degrees(*smallestCosine),
           .volume = volume};
@@ -102,7 +102,7 @@ class Ranking {
 struct Tally {
   double maxAspectRatio = 0, sumAspectRatio = 0;
   double minDihedralDeg = 180, maxDihedralDeg = 0;
-  double shortestSquared = kInfinity, longestSquared = 0;
+  double shortestSquared = kUnbounded, longestSquared = 0;
   double volume = 0;
   std::int64_t inverted = 0, finite = 0;
   Ranking<std::greater<>> aspectRatios, largestDihedrals;
@@ -155,7 +155,7 @@ Tally tallyOf(const TetMesh& mesh) {
     left.merge(right);
     return left;
   };
-  const tbb::blocked_range<std::size_t> all(0, mesh.tets.size(), kGrain);
+  const tbb::blocked_range<std::size_t> all(0, mesh.tets.size(), kTetGrain);
   return tbb::parallel_deterministic_reduce(all, Tally{}, addRange, join);
 }
 
@@ -182,7 +182,7 @@ MeshQuality meshQuality(const TetMesh& mesh) {
   const Tally tally = tallyOf(mesh);
   quality.maxAspectRatio = tally.maxAspectRatio;
   quality.meanAspectRatio =
-      tally.finite > 0 ? tally.sumAspectRatio / static_cast<double>(tally.finite) : kInfinity;
+      tally.finite > 0 ? tally.sumAspectRatio / static_cast<double>(tally.finite) : kUnbounded;
   quality.minDihedralDeg = tally.minDihedralDeg;
   quality.maxDihedralDeg = tally.maxDihedralDeg;
   quality.maxOverMinEdge = std::sqrt(tally.longestSquared / tally.shortestSquared);

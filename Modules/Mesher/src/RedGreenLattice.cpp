@@ -8,7 +8,7 @@
 namespace sinew {
 namespace {
 
-constexpr std::size_t kGrain = 512;  // tets or midpoints per task
+constexpr std::size_t kLatticeGrain = 512;  // tets or midpoints per task
 
 }  // namespace
 
@@ -65,7 +65,7 @@ void RedGreenLattice::bisect(std::size_t count, const BisectionAt& bisectionAt) 
           if (!nodes_.hasPage(page) && (pages.empty() || pages.back() != page)) pages.push_back(page);
         });
       },
-      kGrain));
+      kLatticeGrain));
   const auto fresh = collect<std::pair<int, Int3>>(
       count,
       [&](std::size_t i, auto& found) {
@@ -73,7 +73,7 @@ void RedGreenLattice::bisect(std::size_t count, const BisectionAt& bisectionAt) 
           if (nodes_.insertConcurrently(p)) found.emplace_back(level, q);
         });
       },
-      kGrain);
+      kLatticeGrain);
   for (const auto& [level, q] : fresh) fresh_[level].push_back(q);
 }
 
@@ -108,7 +108,7 @@ void RedGreenLattice::close() {
       // Which midpoints are fresh does not depend on the threads, only their order does.
       const std::vector<Int3> fresh = std::exchange(fresh_[level], {});
       const auto wanted = collect<Bisection>(
-          fresh.size(), [&](std::size_t n, auto& found) { close(level, fresh[n], found); }, kGrain);
+          fresh.size(), [&](std::size_t n, auto& found) { close(level, fresh[n], found); }, kLatticeGrain);
       bisect(wanted.size(), [&](std::size_t i) { return wanted[i]; });
     }
   }

@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kRounding =
+constexpr double kStarRounding =
     1e-12;  // relative; fused multiply-adds may be in one of the two and not the other
 
 /// Random tets around a node: many of them inverted, some flat.
@@ -36,7 +36,7 @@ void expectNear(double value, double expected) {
   if (std::isinf(expected)) {
     EXPECT_EQ(value, expected);
   } else {
-    EXPECT_NEAR(value, expected, kRounding * expected);
+    EXPECT_NEAR(value, expected, kStarRounding * expected);
   }
 }
 
@@ -76,7 +76,7 @@ TEST(GoalStar, EnergySumsThePowersOfTheFirstTets) {
       const auto& [a, b, c] = faces[count - 1];
       sum += power(goalMeasure(x, nodes[a], nodes[b], nodes[c]), q);
       ASSERT_LT(sum, kInfinity);
-      EXPECT_NEAR(star.energy(x, q, count), sum, q * kRounding * sum);
+      EXPECT_NEAR(star.energy(x, q, count), sum, q * kStarRounding * sum);
     }
   }
 }
@@ -86,9 +86,9 @@ TEST(GoalStar, SwapExchangesTetsAndTheShortestEdgeStays) {
   const Vector3d x(0.3, 0.1, 0);
   double shortest = kInfinity;
   for (const Vector3d& node : s.nodes) shortest = std::min(shortest, (node - x).norm());
-  EXPECT_NEAR(s.star.shortestEdge(x), shortest, kRounding);
+  EXPECT_NEAR(s.star.shortestEdge(x), shortest, kStarRounding);
   s.star.swap(0, 4);
-  EXPECT_NEAR(s.star.shortestEdge(x), shortest, kRounding);
+  EXPECT_NEAR(s.star.shortestEdge(x), shortest, kStarRounding);
   const std::span<const double> measures = s.star.measures(x, s.star.size());
   expectNear(measures[0], s.measure(x, 4));
   expectNear(measures[4], s.measure(x, 0));

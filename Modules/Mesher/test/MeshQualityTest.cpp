@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 
 // Exact values are met up to the rounding of a few dozen operations; acos keeps that away from 0 and 180
 // degrees.
-constexpr double kRounding = 1e-12;
+constexpr double kExact = 1e-12;
 constexpr double kDegreeRounding = 1e-11;
 
 double degrees(double radians) { return radians * 180 / M_PI; }
@@ -26,15 +26,15 @@ constexpr std::vector<RankedTet> MeshQuality::*kRankings[]{
 
 TEST(TetQuality, RegularTet) {
   const TetQuality q = tetQuality({1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1});
-  EXPECT_NEAR(q.aspectRatio, std::sqrt(1.5), kRounding);
+  EXPECT_NEAR(q.aspectRatio, std::sqrt(1.5), kExact);
   EXPECT_NEAR(q.minDihedralDeg, degrees(std::acos(1.0 / 3)), kDegreeRounding);
   EXPECT_NEAR(q.maxDihedralDeg, degrees(std::acos(1.0 / 3)), kDegreeRounding);
-  EXPECT_NEAR(std::abs(q.volume), 8.0 / 3, kRounding);
+  EXPECT_NEAR(std::abs(q.volume), 8.0 / 3, kExact);
 }
 
 TEST(TetQuality, BccTet) {
   const TetQuality q = tetQuality({0, 0, 0}, {1, 0, 0}, {.5, .5, .5}, {.5, -.5, .5});
-  EXPECT_NEAR(q.aspectRatio, std::sqrt(2.0), kRounding);
+  EXPECT_NEAR(q.aspectRatio, std::sqrt(2.0), kExact);
   EXPECT_NEAR(q.minDihedralDeg, 60, kDegreeRounding);
   EXPECT_NEAR(q.maxDihedralDeg, 90, kDegreeRounding);
 }
@@ -42,18 +42,18 @@ TEST(TetQuality, BccTet) {
 TEST(TetQuality, CornerOfACube) {
   // Longest edge sqrt 2, shortest altitude 1 / sqrt 3; the slanted face meets the others at acos(1 / sqrt 3).
   const TetQuality q = tetQuality({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1});
-  EXPECT_NEAR(q.aspectRatio, std::sqrt(6.0), kRounding);
+  EXPECT_NEAR(q.aspectRatio, std::sqrt(6.0), kExact);
   EXPECT_NEAR(q.minDihedralDeg, degrees(std::acos(1 / std::sqrt(3.0))), kDegreeRounding);
   EXPECT_NEAR(q.maxDihedralDeg, 90, kDegreeRounding);
-  EXPECT_NEAR(q.volume, 1.0 / 6, kRounding);
+  EXPECT_NEAR(q.volume, 1.0 / 6, kExact);
 }
 
 TEST(TetQuality, SwappingTwoNodesTurnsOnlyTheSignOfTheVolume) {
   const Vector3d a(0, 0, 0), b(2, 0.1, 0), c(0.3, 1, 0), d(0.2, 0.4, 0.9);
   const TetQuality q = tetQuality(a, b, c, d), swapped = tetQuality(b, a, c, d);
   EXPECT_GT(q.volume, 0);
-  EXPECT_NEAR(swapped.volume, -q.volume, kRounding);
-  EXPECT_NEAR(swapped.aspectRatio, q.aspectRatio, kRounding);
+  EXPECT_NEAR(swapped.volume, -q.volume, kExact);
+  EXPECT_NEAR(swapped.aspectRatio, q.aspectRatio, kExact);
   EXPECT_NEAR(swapped.minDihedralDeg, q.minDihedralDeg, kDegreeRounding);
   EXPECT_NEAR(swapped.maxDihedralDeg, q.maxDihedralDeg, kDegreeRounding);
 }
@@ -91,11 +91,11 @@ TEST(MeshQuality, OfABccBlock) {
   const MeshQuality q = meshQuality(test::bccBlock({4, 3, 5}));
   const std::int64_t innerFaces = 3 * 3 * 5 + 4 * 2 * 5 + 4 * 3 * 4;
   EXPECT_EQ(q.tets, 4 * innerFaces);
-  EXPECT_NEAR(q.maxAspectRatio, std::sqrt(2.0), kRounding);
-  EXPECT_NEAR(q.meanAspectRatio, std::sqrt(2.0), kRounding);
+  EXPECT_NEAR(q.maxAspectRatio, std::sqrt(2.0), kExact);
+  EXPECT_NEAR(q.meanAspectRatio, std::sqrt(2.0), kExact);
   EXPECT_NEAR(q.minDihedralDeg, 60, kDegreeRounding);
   EXPECT_NEAR(q.maxDihedralDeg, 90, kDegreeRounding);
-  EXPECT_NEAR(q.maxOverMinEdge, 2 / std::sqrt(3.0), kRounding);
+  EXPECT_NEAR(q.maxOverMinEdge, 2 / std::sqrt(3.0), kExact);
   EXPECT_NEAR(q.volume, static_cast<double>(q.tets) / 12, 1e-10);
   EXPECT_EQ(q.inverted, 0);
 }
@@ -109,7 +109,7 @@ TEST(MeshQuality, FindsTheWorstAndTheInverted) {
   std::swap(mesh.tets[7][0], mesh.tets[7][1]);
   const MeshQuality q = meshQuality(mesh);
   EXPECT_EQ(q.largestAspectRatios[0].tet, 5);
-  EXPECT_NEAR(q.maxAspectRatio, std::sqrt(6.0), kRounding);
+  EXPECT_NEAR(q.maxAspectRatio, std::sqrt(6.0), kExact);
   EXPECT_EQ(q.inverted, 1);
 }
 
@@ -121,7 +121,7 @@ TEST(MeshQuality, AFlatTetCountsAsInvertedAndLeavesTheMean) {
   EXPECT_EQ(q.inverted, 1);
   EXPECT_EQ(q.largestAspectRatios[0].tet, 1);
   EXPECT_TRUE(std::isinf(q.maxAspectRatio));
-  EXPECT_NEAR(q.meanAspectRatio, std::sqrt(6.0), kRounding);
+  EXPECT_NEAR(q.meanAspectRatio, std::sqrt(6.0), kExact);
 }
 
 TEST(MeshQuality, OfNothingIsZero) {

@@ -60,7 +60,7 @@ std::int64_t totalSixVolume(const std::vector<LatticeTet>& leaves) {
   return sum;
 }
 
-constexpr unsigned kSeeds[] = {1, 2, 3, 4, 5, 6};
+constexpr unsigned kRefinements[] = {1, 2, 3, 4, 5, 6};
 
 TEST(RedGreenLattice, WithoutRefinementHasTwelveTetsPerCube) {
   const RedGreenLattice lattice = refined({});
@@ -75,7 +75,7 @@ TEST(RedGreenLattice, WithoutRefinementHasTwelveTetsPerCube) {
 TEST(RedGreenLattice, LeavesConformAndKeepTheVolume) {
   const std::vector<LatticeTet> whole = allLeaves(refined({}));
   const std::set<LatticeFace> border = outerFaces(whole);
-  for (const unsigned seed : kSeeds) {
+  for (const unsigned seed : kRefinements) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const std::vector<LatticeTet> leaves = allLeaves(refined(randomRequests(seed, 8)));
     EXPECT_GT(leaves.size(), whole.size() + 100);
@@ -86,7 +86,7 @@ TEST(RedGreenLattice, LeavesConformAndKeepTheVolume) {
 
 TEST(RedGreenLattice, LeavesKeepTheExactBoundsOfTheTables) {
   constexpr double rounding = 1e-9;
-  for (const unsigned seed : kSeeds) {
+  for (const unsigned seed : kRefinements) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     int green = 0;
     for (const LatticeTet& leaf : allLeaves(refined(randomRequests(seed, 8)))) {
@@ -121,7 +121,7 @@ int countGreenAncestors(const RedGreenLattice& lattice, int level, const BccTet&
 }
 
 TEST(RedGreenLattice, NothingIsRefinedBelowAGreenTet) {
-  for (const unsigned seed : kSeeds) {
+  for (const unsigned seed : kRefinements) {
     const RedGreenLattice lattice = refined(randomRequests(seed, 8));
     int offenders = 0;
     for (const BccTet& tet : test::coarseTetsOf(kCells)) offenders += countGreenAncestors(lattice, 0, tet);
@@ -130,7 +130,7 @@ TEST(RedGreenLattice, NothingIsRefinedBelowAGreenTet) {
 }
 
 TEST(RedGreenLattice, RequestedTetsAndTheirAncestorsAreRefined) {
-  for (const unsigned seed : kSeeds) {
+  for (const unsigned seed : kRefinements) {
     const std::vector<LevelTet> requests = randomRequests(seed, 8);
     const RedGreenLattice lattice = refined(requests);
     for (auto [level, tet] : requests)
@@ -139,7 +139,7 @@ TEST(RedGreenLattice, RequestedTetsAndTheirAncestorsAreRefined) {
 }
 
 TEST(RedGreenLattice, ClosingTwiceChangesNothing) {
-  for (const unsigned seed : kSeeds) {
+  for (const unsigned seed : kRefinements) {
     RedGreenLattice lattice = refined(randomRequests(seed, 8));
     const std::vector<Int3> once = lattice.nodes().nodes();
     lattice.close();
@@ -148,7 +148,7 @@ TEST(RedGreenLattice, ClosingTwiceChangesNothing) {
 }
 
 TEST(RedGreenLattice, TheOrderOfRequestsAndClosingsDoesNotMatter) {
-  for (const unsigned seed : kSeeds) {
+  for (const unsigned seed : kRefinements) {
     std::vector<LevelTet> requests = randomRequests(seed, 10);
     const std::vector<Int3> together = refined(requests).nodes().nodes();
     std::shuffle(requests.begin(), requests.end(), std::mt19937(seed));
@@ -163,7 +163,7 @@ TEST(RedGreenLattice, TheOrderOfRequestsAndClosingsDoesNotMatter) {
 
 TEST(RedGreenLattice, ManyAtOnceAsOneByOneForAnyNumberOfThreads) {
   constexpr int levels = 6;  // pages without a node of level 0
-  for (const unsigned seed : kSeeds) {
+  for (const unsigned seed : kRefinements) {
     const std::vector<LevelTet> requests = randomRequests(seed, 2000, levels);
     RedGreenLattice single(kCells, levels);
     for (const LevelTet& request : requests) single.refine(request.level, request.tet);

@@ -76,7 +76,8 @@ TEST(EdgeLengthSearch, EndsWhenNothingHelps) {
 }
 
 TEST(EdgeLengthSearch, TheFirstOfEquallyGoodTrialsIsBest) {
-  EXPECT_EQ(bestTrial({{1, 4000}, {2, 250}, {3, 500}, {4, 2000}}, 1000), 2u);
+  const std::vector<SizeTrial> trials{{1, 4000}, {2, 250}, {3, 500}, {4, 2000}};
+  EXPECT_EQ(bestTrial(trials, 1000), 2u);
 }
 
 TEST(EdgeLengthSearch, BeginsWithTheSurfaceOrTheVolume) {

@@ -58,10 +58,6 @@ MeshTissuesOptions coarse() {
   return options;
 }
 
-std::size_t entries(const fs::path& folder) {
-  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
-}
-
 double ballVolume(double radius) { return 4 * std::numbers::pi / 3 * radius * radius * radius; }
 
 TEST(MeshTissues, WritesOneSoundMeshPerTissueAndNamesWhatIsLost) {
@@ -69,7 +65,7 @@ TEST(MeshTissues, WritesOneSoundMeshPerTissueAndNamesWhatIsLost) {
   const Segmentation segmentation = ballsAndThread();
   const std::vector<TissueReport> reports = meshTissues(segmentation, {0, 1, 2}, folder.path(), coarse());
   ASSERT_EQ(reports.size(), 3u);
-  EXPECT_EQ(entries(folder.path()), 2u);
+  EXPECT_EQ(test::entriesOf(folder.path()), 2u);
 
   const double radii[]{kBallRadius, kSmallRadius};
   for (int t = 0; t < 2; ++t) {
@@ -310,14 +306,14 @@ TEST(MeshTissues, OneFailureLeavesTheOthersAlone) {
   EXPECT_EQ(reports[0].status, TissueStatus::Failed);
   EXPECT_NE(reports[0].message.find("ball.vtu"), std::string::npos) << reports[0].message;
   EXPECT_EQ(reports[1].status, TissueStatus::Meshed);
-  EXPECT_EQ(entries(folder.path()), 2u) << "a partial file is left";
+  EXPECT_EQ(test::entriesOf(folder.path()), 2u) << "a partial file is left";
 }
 
 TEST(MeshTissues, AnOldFileGoesWithItsTissue) {
   const test::TempFolder folder;
   test::writeBytes(folder / "thread.vtu", "from an earlier run");
   meshTissues(ballsAndThread(), {2}, folder.path(), coarse());
-  EXPECT_EQ(entries(folder.path()), 0u);
+  EXPECT_EQ(test::entriesOf(folder.path()), 0u);
 }
 
 TEST(MeshTissues, ACallbackStopsTheRun) {
@@ -328,7 +324,7 @@ TEST(MeshTissues, ACallbackStopsTheRun) {
       if (stage == stopAt) throw Enough{};
     };
     EXPECT_THROW(meshTissues(ballsAndThread(), {0, 1}, folder.path(), coarse(), stop), Enough) << stopAt;
-    EXPECT_EQ(entries(folder.path()), 0u) << stopAt;
+    EXPECT_EQ(test::entriesOf(folder.path()), 0u) << stopAt;
   }
 }
 

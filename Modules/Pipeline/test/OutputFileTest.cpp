@@ -12,10 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::size_t entries(const fs::path& folder) {
-  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
-}
-
 TEST(OutputFile, AppearsWhenCommitted) {
   const test::TempFolder folder;
   {
@@ -28,7 +24,7 @@ TEST(OutputFile, AppearsWhenCommitted) {
     output.commit();
   }
   EXPECT_EQ(test::readBytes(folder / "a.seg.nrrd"), "new");
-  EXPECT_EQ(entries(folder.path()), 1u);
+  EXPECT_EQ(test::entriesOf(folder.path()), 1u);
 }
 
 TEST(OutputFile, LeavesNothingWithoutCommit) {
@@ -39,7 +35,7 @@ TEST(OutputFile, LeavesNothingWithoutCommit) {
     test::writeBytes(output.temporary(), "half");
   }
   EXPECT_EQ(test::readBytes(folder / "a"), "old");
-  EXPECT_EQ(entries(folder.path()), 1u);
+  EXPECT_EQ(test::entriesOf(folder.path()), 1u);
 }
 
 TEST(OutputFile, ASignalHandlerFindsEveryTemporary) {
@@ -49,7 +45,7 @@ TEST(OutputFile, ASignalHandlerFindsEveryTemporary) {
     test::writeBytes(first.temporary(), "half");
     test::writeBytes(second.temporary(), "half");
     removeTemporaryFiles();
-    _exit(entries(folder.path()) == 0 ? 0 : 1);
+    _exit(test::entriesOf(folder.path()) == 0 ? 0 : 1);
   };
   EXPECT_EXIT(interrupted(), testing::ExitedWithCode(0), "");
 }
@@ -77,7 +73,7 @@ TEST(CheckOutput, FoldersMayBeMissingButNotFiles) {
   const test::TempFolder folder;
   test::writeBytes(folder / "file", "");
   EXPECT_NO_THROW(checkOutputFolder(folder / "new" / "deep", {"a"}, false));
-  EXPECT_EQ(entries(folder.path()), 1u) << "checking leaves nothing";
+  EXPECT_EQ(test::entriesOf(folder.path()), 1u) << "checking leaves nothing";
   EXPECT_THROW(checkOutputFolder(folder / "file", {"a"}, false), std::runtime_error);
   EXPECT_THROW(checkOutputFolder(folder / "file" / "deep", {"a"}, false), std::runtime_error);
   EXPECT_THROW(checkOutputFile(folder.path(), true), std::runtime_error) << "a folder is no file";
@@ -93,7 +89,7 @@ TEST(CheckOutput, UnwritableFoldersAreFoundBeforehand) {
 TEST(OutputFolder, IsTakenBackWhenNothingWasWritten) {
   const test::TempFolder folder;
   { const OutputFolder output(folder / "new" / "deep"); }
-  EXPECT_EQ(entries(folder.path()), 0u);
+  EXPECT_EQ(test::entriesOf(folder.path()), 0u);
   {
     const OutputFolder output(folder / "new" / "deep");
     test::writeBytes(folder / "new" / "deep" / "a", "");

@@ -57,7 +57,8 @@ TEST(VolumeOffset, StopsAfterFourTrials) {
 }
 
 TEST(VolumeOffset, AWorseMeshIsNotTaken) {
-  EXPECT_EQ(bestTrial({{0, 98}, {0.1, 103}, {0.05, 102}}, 100), 0u) << "the first of equals";
+  const std::vector<OffsetTrial> trials{{0, 98}, {0.1, 103}, {0.05, 102}};
+  EXPECT_EQ(bestTrial(trials, 100), 0u) << "the first of equals";
 }
 
 }  // namespace

@@ -24,8 +24,6 @@ constexpr double kBandSamples = 4;
 /// So far outside of what is needed, beyond the band, a solid is cut off, samples.
 constexpr double kUnseenSamples = 3;
 
-bool isFinite(const AlignedBox3d& box) { return box.min().allFinite() && box.max().allFinite(); }
-
 AlignedBox3d grown(const AlignedBox3d& box, double margin) {
   return {box.min().array() - margin, box.max().array() + margin};
 }

@@ -20,8 +20,6 @@ std::vector<VoxelBox> boxesOf(const LabelComponents& pieces) {
   return result;
 }
 
-bool isFinite(const Eigen::AlignedBox3d& box) { return box.min().allFinite() && box.max().allFinite(); }
-
 class EstimatingEngine : public ShapeEngine {
  public:
   explicit EstimatingEngine(const Segmentation& input)

@@ -28,4 +28,6 @@ struct Shape {
 };
 using ShapePtr = std::shared_ptr<const Shape>;
 
+inline bool isFinite(const Eigen::AlignedBox3d& box) { return box.min().allFinite() && box.max().allFinite(); }
+
 }  // namespace sinew::repair

@@ -7,13 +7,13 @@ namespace sinew {
 
 namespace {
 
-constexpr std::size_t kBuffer = 1 << 16;  // bytes
+constexpr std::size_t kPackedBytes = 1 << 16;  // bytes
 constexpr int kWindow = 15, kGzipWrapper = 16;
 
 }  // namespace
 
 DeflateWriter::DeflateWriter(std::ostream& out, Wrapper wrapper)
-    : out_(out), packed_(kBuffer), stream_(std::make_unique<z_stream>()) {
+    : out_(out), packed_(kPackedBytes), stream_(std::make_unique<z_stream>()) {
   constexpr int memoryLevel = 8;  // zlib's default
   const int window = wrapper == Wrapper::Gzip ? kWindow + kGzipWrapper : kWindow;
   if (deflateInit2(stream_.get(), Z_DEFAULT_COMPRESSION, Z_DEFLATED, window, memoryLevel,

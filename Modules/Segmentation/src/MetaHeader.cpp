@@ -22,7 +22,7 @@ struct MetaFields {
   std::uint64_t bytes = 0;  ///< of the header
 };
 
-MetaFields readFields(const fs::path& file) {
+MetaFields readMetaFields(const fs::path& file) {
   MetaFields header;
   std::ifstream stream(file, std::ios::binary);
   std::string line;
@@ -147,7 +147,7 @@ ImagePayload payload(const fs::path& file, const MetaFields& header, std::span<c
 }  // namespace
 
 ImageHeader readMetaHeader(const fs::path& file) {
-  const MetaFields fields = readFields(file);
+  const MetaFields fields = readMetaFields(file);
   const auto shape = sizes(file, fields);
   requireVolume(file, shape);
   const auto channels = numbers<std::int64_t>(file, fields, {"ElementNumberOfChannels"});

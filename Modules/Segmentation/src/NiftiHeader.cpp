@@ -44,7 +44,7 @@ class NiftiFields {
   bool swapped_;
 };
 
-NiftiFields readFields(const fs::path& file) {
+NiftiFields readNiftiFields(const fs::path& file) {
   using namespace std::string_view_literals;
   const std::string front = readFront(file, kHeaderBytes);
   if (front.size() < kHeaderBytes)
@@ -174,7 +174,7 @@ ImagePayload payload(const fs::path& file, const NiftiFields& fields,
 }  // namespace
 
 ImageHeader readNiftiHeader(const fs::path& file) {
-  const NiftiFields fields = readFields(file);
+  const NiftiFields fields = readNiftiFields(file);
   const auto shape = sizes(file, fields);
   ImageHeader header{.format = ImageFormat::Nifti, .payload = payload(file, fields, shape)};
   requireSingleValues(file, fields, shape);

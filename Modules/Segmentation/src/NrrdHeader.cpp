@@ -38,7 +38,7 @@ std::string unescape(std::string_view value) {
   return result;
 }
 
-NrrdFields readFields(const fs::path& file) {
+NrrdFields readNrrdFields(const fs::path& file) {
   NrrdFields header;
   std::ifstream stream(file, std::ios::binary);
   std::string line;
@@ -210,7 +210,7 @@ std::optional<ImagePayload> payload(const fs::path& file, const NrrdFields& head
 }  // namespace
 
 ImageHeader readNrrdHeader(const fs::path& file) {
-  const NrrdFields fields = readFields(file);
+  const NrrdFields fields = readNrrdFields(file);
   const auto shape = sizes(file, fields);
   const ValueType type = valueType(file, fields);
   const std::uint64_t bytes = volumeBytes(file, shape, bytesOf(type));

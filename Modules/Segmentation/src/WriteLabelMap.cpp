@@ -24,32 +24,32 @@ struct LabelMapFormat {
   void (*write)(const Segmentation&, const fs::path&);
 };
 
-constexpr std::array kFormats{LabelMapFormat{".nrrd", writePlainNrrd}, LabelMapFormat{".nii", writeNifti},
+constexpr std::array kLabelMapFormats{LabelMapFormat{".nrrd", writePlainNrrd}, LabelMapFormat{".nii", writeNifti},
                               LabelMapFormat{".nii.gz", writeNifti}, LabelMapFormat{".mha", writeMeta},
                               LabelMapFormat{".mhd", writeMeta}};
 
-const LabelMapFormat* formatOf(const fs::path& file) {
+const LabelMapFormat* labelMapFormatOf(const fs::path& file) {
   const std::string name = text::lower(file.filename().string());
   if (name.ends_with(".seg.nrrd")) return nullptr;
   const auto found = std::ranges::find_if(
-      kFormats, [&](const LabelMapFormat& format) { return name.ends_with(format.ending); });
-  return found == kFormats.end() ? nullptr : &*found;
+      kLabelMapFormats, [&](const LabelMapFormat& format) { return name.ends_with(format.ending); });
+  return found == kLabelMapFormats.end() ? nullptr : &*found;
 }
 
 std::string knownEndings() {
   std::string result;
-  for (const LabelMapFormat& format : kFormats)
+  for (const LabelMapFormat& format : kLabelMapFormats)
     result.append(result.empty() ? "" : ", ").append(format.ending);
   return result;
 }
 
 }  // namespace
 
-bool isLabelMapName(const fs::path& file) { return formatOf(file) != nullptr; }
+bool isLabelMapName(const fs::path& file) { return labelMapFormatOf(file) != nullptr; }
 
 LabelMapReport writeLabelMap(const Segmentation& segmentation, const fs::path& file,
                              const MergeLayersOptions& options) {
-  const LabelMapFormat* format = formatOf(file);
+  const LabelMapFormat* format = labelMapFormatOf(file);
   if (!format)
     throw std::invalid_argument("writeLabelMap: " + file.string() + " ends in none of " + knownEndings());
   requireWritable(segmentation);

@@ -114,18 +114,18 @@ struct TableFormat {
   std::string (*format)(const LabelTable&, const fs::path&);
 };
 
-constexpr std::array kFormats{TableFormat{".ctbl", ctbl}, TableFormat{".csv", csv},
+constexpr std::array kTableFormats{TableFormat{".ctbl", ctbl}, TableFormat{".csv", csv},
                               TableFormat{".tsv", bids}};
 
-const TableFormat* formatOf(const fs::path& file) {
+const TableFormat* tableFormatOf(const fs::path& file) {
   const auto found =
-      std::ranges::find(kFormats, text::lower(file.extension().string()), &TableFormat::ending);
-  return found == kFormats.end() ? nullptr : &*found;
+      std::ranges::find(kTableFormats, text::lower(file.extension().string()), &TableFormat::ending);
+  return found == kTableFormats.end() ? nullptr : &*found;
 }
 
 }  // namespace
 
-bool isLabelTableName(const fs::path& file) { return formatOf(file) != nullptr; }
+bool isLabelTableName(const fs::path& file) { return tableFormatOf(file) != nullptr; }
 
 LabelTable labelTable(const Segmentation& segmentation) {
   LabelTable table;
@@ -143,7 +143,7 @@ LabelTable labelTable(const Segmentation& segmentation) {
 }
 
 void writeLabelTable(const LabelTable& table, const fs::path& file) {
-  const TableFormat* format = formatOf(file);
+  const TableFormat* format = tableFormatOf(file);
   if (!format)
     throw std::invalid_argument("writeLabelTable: " + file.string() + " ends in none of .ctbl, .csv, .tsv");
   const std::string content = format->format(table, file);

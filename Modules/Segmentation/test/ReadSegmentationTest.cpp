@@ -19,12 +19,6 @@ using test::MetaSpec;
 using test::NiftiSpec;
 using test::NrrdSpec;
 
-Segmentation readBytes(const std::string& name, const std::string& bytes) {
-  const test::TempFolder folder;
-  test::writeBytes(folder / name, bytes);
-  return readSegmentation(folder / name);
-}
-
 void expectSmallLabels(const Segmentation& s) {
   ASSERT_EQ(s.layers.size(), 1u);
   EXPECT_EQ(s.geometry.size, Eigen::Vector3i(4, 3, 2));
@@ -42,15 +36,15 @@ void expectReadsInEveryFormat(const std::string& nrrdType, const std::string& me
   const std::string raw = test::bytesOf(test::smallLabelsAs<Value>());
   const std::int16_t bits = 8 * sizeof(Value);
   SCOPED_TRACE(nrrdType);
-  expectSmallLabels(readBytes("raw.nrrd", test::nrrd({.type = nrrdType}, raw)));
+  expectSmallLabels(test::segmentationFrom("raw.nrrd", test::nrrd({.type = nrrdType}, raw)));
   expectSmallLabels(
-      readBytes("gz.nrrd", test::nrrd({.type = nrrdType, .encoding = "gzip"}, test::gzip(raw))));
-  expectSmallLabels(readBytes("raw.mha", test::meta({.type = metaType}, raw)));
+      test::segmentationFrom("gz.nrrd", test::nrrd({.type = nrrdType, .encoding = "gzip"}, test::gzip(raw))));
+  expectSmallLabels(test::segmentationFrom("raw.mha", test::meta({.type = metaType}, raw)));
   expectSmallLabels(
-      readBytes("z.mha", test::meta({.type = metaType, .compressed = "True"}, test::zlib(raw))));
+      test::segmentationFrom("z.mha", test::meta({.type = metaType, .compressed = "True"}, test::zlib(raw))));
   const NiftiSpec spec{.datatype = niftiType, .bitpix = bits};
-  expectSmallLabels(readBytes("raw.nii", test::nifti(spec, raw)));
-  expectSmallLabels(readBytes("gz.nii.gz", test::gzip(test::nifti(spec, raw))));
+  expectSmallLabels(test::segmentationFrom("raw.nii", test::nifti(spec, raw)));
+  expectSmallLabels(test::segmentationFrom("gz.nii.gz", test::gzip(test::nifti(spec, raw))));
 }
 
 TEST(ReadSegmentation, AnImageIsToldByItsContentWhateverItsName) {
@@ -87,7 +81,7 @@ TEST(ReadSegmentation, LabelsUpToBothEndsOf32Bits) {
   std::vector<std::int64_t> labels(24, 0);
   labels[3] = INT32_MAX;
   labels[4] = INT32_MIN;
-  const Segmentation s = readBytes("a.nrrd", test::nrrd({.type = "int64"}, test::bytesOf(labels)));
+  const Segmentation s = test::segmentationFrom("a.nrrd", test::nrrd({.type = "int64"}, test::bytesOf(labels)));
   EXPECT_EQ(s.layers[0][3], INT32_MAX);
   EXPECT_EQ(s.layers[0][4], INT32_MIN);
   EXPECT_EQ(s.tissues[0].name, "Segment_-2147483648");
@@ -98,17 +92,17 @@ TEST(ReadSegmentation, BigEndianFiles) {
   for (std::size_t i = 0; i < swapped.size(); i += 2) std::swap(swapped[i], swapped[i + 1]);
   std::string big = test::meta({}, swapped);
   big.replace(big.find("MSB = False"), 11, "MSB = True");
-  expectSmallLabels(readBytes("big.mha", big));
+  expectSmallLabels(test::segmentationFrom("big.mha", big));
   big = test::nrrd({}, swapped);
   big.replace(big.find("endian: little"), 14, "endian: big");
-  expectSmallLabels(readBytes("big.nrrd", big));
+  expectSmallLabels(test::segmentationFrom("big.nrrd", big));
 }
 
 TEST(ReadSegmentation, NiftiScaleIsApplied) {
   std::vector<std::int16_t> halves(24, 2);
   halves[5] = 6;
   const NiftiSpec spec{.slope = 0.5f, .intercept = -1};  // 2 -> 0, 6 -> 2
-  const Segmentation s = readBytes("a.nii", test::nifti(spec, test::bytesOf(halves)));
+  const Segmentation s = test::segmentationFrom("a.nii", test::nifti(spec, test::bytesOf(halves)));
   ASSERT_EQ(s.tissues.size(), 1u);
   EXPECT_EQ(s.tissues[0].label, 2);
   EXPECT_EQ(s.layers[0][5], 2);
@@ -116,7 +110,7 @@ TEST(ReadSegmentation, NiftiScaleIsApplied) {
 
 TEST(ReadSegmentation, FourthAxisOfOneImageIsAVolume) {
   const std::string raw = test::bytesOf(test::smallLabelsAs<std::int16_t>());
-  expectSmallLabels(readBytes("a.nii", test::nifti({.dim = {4, 3, 2, 1}}, raw)));
+  expectSmallLabels(test::segmentationFrom("a.nii", test::nifti({.dim = {4, 3, 2, 1}}, raw)));
 }
 
 TEST(ReadSegmentation, DetachedDataFiles) {
@@ -203,7 +197,7 @@ TEST(ReadSegmentation, NiftiSformThatItkRefusesIsTakenAsItStands) {
   const std::string raw = test::bytesOf(test::smallLabelsAs<std::int16_t>());
   const test::Rows sheared{{{3, 0, 0.5f, 5}, {0, 3, 0, 6}, {0, 0, 2, 7}}};
   const Segmentation s =
-      readBytes("s.nii", test::nifti({.qformCode = 0, .sformCode = 1, .sform = sheared}, raw));
+      test::segmentationFrom("s.nii", test::nifti({.qformCode = 0, .sformCode = 1, .sform = sheared}, raw));
   Eigen::Matrix4d lps = Eigen::Matrix4d::Identity();
   lps.topRows(3) << -3, 0, -0.5, -5, 0, -3, 0, -6, 0, 0, 2, 7;
   // Splitting a column into length and direction and back costs a rounding.
@@ -240,7 +234,7 @@ TEST(ReadSegmentation, SlicerSegmentsEqualTheHeader) {
       segment(2, "nothing there", 99, 0);
   for (const char* name : {"a.seg.nrrd", "renamed.nrrd", "temp.dat"}) {
     SCOPED_TRACE(name);
-    const Segmentation s = readBytes(name, slicerFile(segments));
+    const Segmentation s = test::segmentationFrom(name, slicerFile(segments));
     ASSERT_EQ(s.tissues.size(), 3u);
     EXPECT_EQ(s.tissues[0].name,
               "Sch\xC3\xA4"
@@ -289,7 +283,7 @@ TEST(ReadSegmentation, LayersNeverMixWhateverTheirNumber) {
     NrrdSpec spec = layeredSpec(layers, "list");
     for (int n = 0; n < layers; ++n)
       spec.extra += segment(n, "on layer " + std::to_string(n), layeredValue(n, 0), n);
-    const Segmentation s = readBytes("a.seg.nrrd", test::nrrd(spec, test::bytesOf(layeredVoxels(layers))));
+    const Segmentation s = test::segmentationFrom("a.seg.nrrd", test::nrrd(spec, test::bytesOf(layeredVoxels(layers))));
     ASSERT_EQ(s.layers.size(), static_cast<std::size_t>(layers));
     ASSERT_EQ(s.tissues.size(), static_cast<std::size_t>(layers));
     for (int layer = 0; layer < layers; ++layer) {
@@ -305,12 +299,12 @@ TEST(ReadSegmentation, LayersNeverMixWhateverTheirNumber) {
 TEST(ReadSegmentation, SlicerLayersMayBeOfVectorKind) {
   NrrdSpec spec = layeredSpec(2, "vector");
   spec.extra = segment(0, "a", 1, 0) + segment(1, "b", 1, 1);
-  EXPECT_EQ(readBytes("a.nrrd", test::nrrd(spec, test::bytesOf(layeredVoxels(2)))).tissues[1].name, "b");
+  EXPECT_EQ(test::segmentationFrom("a.nrrd", test::nrrd(spec, test::bytesOf(layeredVoxels(2)))).tissues[1].name, "b");
 }
 
 TEST(ReadSegmentation, ListWithoutSegmentsHasUnnamedLayers) {
   const Segmentation s =
-      readBytes("a.nrrd", test::nrrd(layeredSpec(2, "list"), test::bytesOf(layeredVoxels(2))));
+      test::segmentationFrom("a.nrrd", test::nrrd(layeredSpec(2, "list"), test::bytesOf(layeredVoxels(2))));
   ASSERT_EQ(s.tissues.size(), 2u);
   EXPECT_EQ(s.tissues[1].name, "Segment_1_layer_1");
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sinew/Segmentation/ReadSegmentation.h"
 #include "sinew/TestSupport/Files.h"
 #include "sinew/TestSupport/TempFolder.h"
 
@@ -122,6 +123,13 @@ inline std::string nifti(const NiftiSpec& spec, const std::string& data) {
     for (int column = 0; column < 4; ++column) put(280 + 16 * row + 4 * column, spec.sform[row][column]);
   std::memcpy(&header[344], spec.magic.data(), 4);
   return header + data;
+}
+
+/// What is read from a file of this name with these bytes.
+inline Segmentation segmentationFrom(const std::string& name, const std::string& bytes) {
+  const TempFolder folder;
+  writeBytes(folder / name, bytes);
+  return readSegmentation(folder / name);
 }
 
 }  // namespace sinew::test

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <iterator>
 #include <string>
 #include <unistd.h>
 
@@ -31,5 +32,11 @@ class TempFolder {
 
   std::filesystem::path path_;
 };
+
+/// How many files and folders a folder holds.
+inline std::size_t entriesOf(const std::filesystem::path& folder) {
+  const std::filesystem::directory_iterator entries(folder);
+  return static_cast<std::size_t>(std::distance(begin(entries), end(entries)));
+}
 
 }  // namespace sinew::test
