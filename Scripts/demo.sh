@@ -14,7 +14,7 @@ say "Packages"
 
 say "Program"
 cd -- "$repository"
-cmake --preset release -D SINEW_BUILD_TESTING=OFF
+cmake --preset release "${at_once[@]}" -D SINEW_BUILD_TESTING=OFF
 cmake --build --preset release --parallel "$(compilers)" --target sinew
 
 say "Phantom"

@@ -18,14 +18,14 @@ say "Packages"
 Scripts/install-dependencies.sh --testing
 
 say "Release: build"
-cmake --preset release -D SINEW_BUILD_TESTING=ON
+cmake --preset release "${at_once[@]}" -D SINEW_BUILD_TESTING=ON
 cmake --build --preset release --parallel "$jobs"
 
 say "Release: all tests"
 run_tests release
 
 say "Asserts and sanitizers: build"
-cmake --preset dev
+cmake --preset dev "${at_once[@]}"
 cmake --build --preset dev --parallel "$jobs" --target unit-tests
 
 say "Asserts and sanitizers: unit tests"

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* kReportName = "report.json";
+constexpr const char* kTrialReport = "report.json";
 constexpr int kMostFrames = 9999;
 
 double secondsSince(Clock::time_point start) {
@@ -126,12 +126,12 @@ std::vector<Option> trialOptions(SimulateCommand& command, Choices& choices) {
 }
 
 /// Of the files in the folder.
-struct OutputNames {
+struct TrialOutputs {
   std::string table, plot;
   std::vector<std::string> series;  ///< how those of each mesh begin; empty: none
 
   std::vector<std::string> all(int frames) const {
-    std::vector<std::string> names{kReportName, table, plot};
+    std::vector<std::string> names{kTrialReport, table, plot};
     for (const std::string& stem : series) {
       names.push_back(TrialSeries::listName(stem));
       for (int frame = 0; frame <= frames; ++frame)
@@ -141,9 +141,9 @@ struct OutputNames {
   }
 };
 
-OutputNames outputNames(const SimulateCommand& command, const std::vector<std::string>& meshNames) {
+TrialOutputs trialOutputs(const SimulateCommand& command, const std::vector<std::string>& meshNames) {
   const std::string trial(trialName(command.trial.trial));
-  OutputNames names{trial + ".csv", trial + ".svg", {}};
+  TrialOutputs names{trial + ".csv", trial + ".svg", {}};
   if (command.noSeries) return names;
   if (meshNames.size() == 1)
     names.series = {trial};
@@ -220,7 +220,7 @@ std::string withoutFunction(const std::string& message) {
   return message.starts_with(kName) ? message.substr(kName.size()) : message;
 }
 
-Simulation runTrials(const CommandLine& line, const SimulateCommand& command, const OutputNames& names,
+Simulation runTrials(const CommandLine& line, const SimulateCommand& command, const TrialOutputs& names,
                      const std::vector<std::string>& meshNames, const fs::path& folder) {
   Simulation simulation;
   simulation.table = names.table;
@@ -266,7 +266,7 @@ int simulate(const CommandLine& line, SimulateCommand& command, const Choices& c
     throw CLI::ValidationError(
         "--frames", std::to_string(command.trial.frames) + "; at most " + std::to_string(kMostFrames));
   const std::vector<std::string> meshNames = shortNames(command.meshes);
-  const OutputNames names = outputNames(command, meshNames);
+  const TrialOutputs names = trialOutputs(command, meshNames);
   checkOutputFolder(command.folder, names.all(command.trial.frames), line.common.force);
 
   const InterruptScope interruptible;
@@ -277,7 +277,7 @@ int simulate(const CommandLine& line, SimulateCommand& command, const Choices& c
                 trialPlot(simulation.trials, command.trial.trial, plotTitle(command, simulation)));
   simulation.seconds = secondsSince(start);
   const std::string report = toJson(command, simulation);
-  writeTextFile(folder.temporary() / kReportName, report);
+  writeTextFile(folder.temporary() / kTrialReport, report);
   const std::vector<std::string> stale = missingIn(folder.temporary(), names.all(command.trial.frames));
   folder.commit();
   for (const std::string& name : stale) fs::remove(fs::path(command.folder) / name);

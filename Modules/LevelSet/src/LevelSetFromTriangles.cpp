@@ -17,6 +17,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace sinew {
 namespace {
@@ -42,28 +43,29 @@ Eigen::AlignedBox3d boxOf(const TriangleSurface& surface) {
   return box;
 }
 
-/// One closed surface as OpenVDB reads it, by the indices of a lattice.
-class Polygons {
- public:
-  Polygons(const TriangleSurface& surface, const ClosedSurface& part, const SampleLattice& lattice)
-      : surface_(surface),
-        part_(part),
-        toIndex_(Eigen::Scaling(1 / lattice.spacing) * lattice.frame.inverse()) {}
-
-  std::size_t polygonCount() const { return part_.triangles.size(); }
-  std::size_t pointCount() const { return surface_.nodes.size(); }
-  std::size_t vertexCount(std::size_t) const { return 3; }
-  void getIndexSpacePoint(std::size_t polygon, std::size_t corner, openvdb::Vec3d& at) const {
-    const Eigen::Vector3d index =
-        toIndex_ * surface_.nodes[surface_.triangles[part_.triangles[polygon]][corner]];
-    at = {index.x(), index.y(), index.z()};
+/// The nodes by the indices of a lattice. In single precision OpenVDB's library holds the conversion ready made:
+/// at 200 voxels from the origin that is a 60,000th of a voxel.
+std::vector<openvdb::Vec3s> indexPoints(const TriangleSurface& surface, const SampleLattice& lattice) {
+  const Eigen::Affine3d toIndex = Eigen::Scaling(1 / lattice.spacing) * lattice.frame.inverse();
+  std::vector<openvdb::Vec3s> points;
+  points.reserve(surface.nodes.size());
+  for (const Eigen::Vector3d& node : surface.nodes) {
+    const Eigen::Vector3f index = (toIndex * node).cast<float>();
+    points.emplace_back(index.x(), index.y(), index.z());
   }
+  return points;
+}
 
- private:
-  const TriangleSurface& surface_;
-  const ClosedSurface& part_;
-  Eigen::Affine3d toIndex_;
-};
+/// The corners of one closed surface's triangles.
+std::vector<openvdb::Vec3I> corners(const TriangleSurface& surface, const ClosedSurface& part) {
+  std::vector<openvdb::Vec3I> result;
+  result.reserve(part.triangles.size());
+  for (const auto t : part.triangles) {
+    const auto& [a, b, c] = surface.triangles[t];
+    result.emplace_back(a, b, c);
+  }
+  return result;
+}
 
 /// A lattice along the axes of LPS; @throws when the spacing would make it enormous.
 SampleLattice latticeFor(const TriangleSurface& surface, const LevelSetFromTrianglesOptions& options) {
@@ -110,10 +112,15 @@ LevelSet levelSetOn(const SampleLattice& lattice, const TriangleSurface& surface
   grid->setGridClass(openvdb::GRID_LEVEL_SET);
 
   LevelSetFromTrianglesReport made;
+  const std::vector<openvdb::Vec3s> points = indexPoints(surface, lattice);
+  openvdb::util::NullInterrupter uninterrupted;
   for (const ClosedSurface& part : largestFirst(parts)) {
     const auto band = static_cast<float>(bandVoxels);
+    const std::vector<openvdb::Vec3I> triangles = corners(surface, part);
+    const openvdb::tools::QuadAndTriangleDataAdapter<openvdb::Vec3s, openvdb::Vec3I> polygons(points,
+                                                                                              triangles);
     const auto distance =
-        openvdb::tools::meshToVolume<FloatGrid>(Polygons(surface, part, lattice), *transform, band, band);
+        openvdb::tools::meshToVolume<FloatGrid>(uninterrupted, polygons, *transform, band, band);
     if (part.volume * volume > 0) {
       openvdb::tools::csgUnion(*grid, *distance);
       ++made.solids;

@@ -95,7 +95,8 @@ TEST(LevelSetFromLabels, ACoarseGridKeepsPlaceAndVolume) {
       const Vector3i size = (Vector3d::Constant(46).cwiseQuotient(spacing)).array().ceil().cast<int>();
       LevelSetFromLabelsOptions options;
       options.gridSpacing = 1.7;
-      const Converted c = convert(segmentationOf(centredGeometry(size, spacing, direction), ballOffCentre), options);
+      const Converted c =
+          convert(segmentationOf(centredGeometry(size, spacing, direction), ballOffCentre), options);
       EXPECT_EQ(c.levelSet.voxelSize, 1.7);
       EXPECT_FALSE(c.report.shapeInterpolated) << "blocks of 4 x 4 x 1 voxels are nearly cubes";
       const SurfaceError error = surfaceError(c.levelSet, ballOffCentre);
@@ -234,7 +235,8 @@ TEST(LevelSetFromLabels, TheGridSpacingIsTheCallersToChoose) {
 
 TEST(LevelSetFromLabels, TheNumberOfThreadsDoesNotShow) {
   for (const Vector3d& spacing : {Vector3d(1, 1.2, 1.3), Vector3d(0.8, 0.8, 2)}) {
-    const Segmentation s = segmentationOf(centredGeometry({60, 60, 50}, spacing, obliqueAxes()), ballOffCentre);
+    const Segmentation s =
+        segmentationOf(centredGeometry({60, 60, 50}, spacing, obliqueAxes()), ballOffCentre);
     const auto run = [&] { return convert(s).levelSet.grid->grid; };
     const auto one = test::onThreads(1, run), four = test::onThreads(4, run);
     auto a = one->tree().cbeginLeaf(), b = four->tree().cbeginLeaf();

@@ -26,7 +26,8 @@ TEST(LevelSetMeasures, VolumesOfBallAndTorus) {
   const double pi = std::numbers::pi;
   const LevelSet sphere = narrowBandOf([](const Vector3d& x) { return ball(x, {0.1, 0.2, 0}, 10); });
   EXPECT_NEAR(levelSetVolume(sphere) / (4 * pi / 3 * 1000), 1, 1e-4) << "20 voxels of radius: fourth order";
-  EXPECT_NEAR(levelSetVolume(narrowBandOf(torusOf8)) / (2 * pi * pi * 8 * 9), 1, 1e-3) << "6 voxels of radius";
+  EXPECT_NEAR(levelSetVolume(narrowBandOf(torusOf8)) / (2 * pi * pi * 8 * 9), 1, 1e-3)
+      << "6 voxels of radius";
 }
 
 TEST(LevelSetMeasures, EulerCharacteristicTellsBallTorusShellAndPair) {

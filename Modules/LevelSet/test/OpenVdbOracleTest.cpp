@@ -27,8 +27,9 @@ double shape(const Vector3d& x) {
 }
 
 DenseField distanceField() {
-  DenseField phi = test::sampled(Vector3i::Constant(kSize), Vector3d::Constant(-kOracleSpacing * kSize / 2 + 0.1),
-                                 Vector3d::Constant(kOracleSpacing), shape);
+  DenseField phi =
+      test::sampled(Vector3i::Constant(kSize), Vector3d::Constant(-kOracleSpacing * kSize / 2 + 0.1),
+                    Vector3d::Constant(kOracleSpacing), shape);
   fastMarching(phi, Vector3d::Constant(kOracleSpacing), kOracleBand, {.closestPointLayers = 2});
   return phi;
 }

@@ -52,7 +52,8 @@ TEST(SliceSmoothing, ASlopeStaysAndSoDoesAStepOfFivePixels) {
 }
 
 TEST(SliceSmoothing, AThinSheetIsLeftAlone) {
-  const DenseField sheet = slab([](double z) { return std::lround(z) % 2 == 0 ? 0.1 : -0.1; }, 2.5 * kSlicePixel);
+  const DenseField sheet =
+      slab([](double z) { return std::lround(z) % 2 == 0 ? 0.1 : -0.1; }, 2.5 * kSlicePixel);
   DenseField d = sheet;
   smoothAcrossSlices(d, kSlicePixel);
   EXPECT_EQ(d.values, sheet.values);

@@ -12,9 +12,9 @@ constexpr int kDigits = 12;
 constexpr std::size_t kPerLine = 16;       // Abaqus takes no more
 constexpr std::size_t kLongestEnding = 9;  // _boundary
 constexpr NameRule kAbaqusNames{.maxBytes = 80 - kLongestEnding,
-                          .refused = " !\"#$%&'()*+,./:;<=>?@[\\]^`{|}~",
-                          .asciiOnly = true,
-                          .letterFirst = true};
+                                .refused = " !\"#$%&'()*+,./:;<=>?@[\\]^`{|}~",
+                                .asciiOnly = true,
+                                .letterFirst = true};
 const std::vector<std::string> kTaken{"eall"};
 
 /// The number of a face by the corner opposite to it: S1 is 1 2 3, S2 1 4 2, S3 2 4 3, S4 3 4 1.

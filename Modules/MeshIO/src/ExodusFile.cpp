@@ -23,7 +23,10 @@ constexpr std::array<int, 4> kExodusSide{2, 3, 1, 4};
 class ExodusWriter {
  public:
   ExodusWriter(const SolverMesh& mesh, const WriteMeshOptions& options)
-      : mesh_(mesh), tags_(mesh.tags()), names_(legalNames(mesh.regions(), kExodusNames)), place_(mesh.tetCount()) {
+      : mesh_(mesh),
+        tags_(mesh.tags()),
+        names_(legalNames(mesh.regions(), kExodusNames)),
+        place_(mesh.tetCount()) {
     for (const std::string& name : names_) sideNames_.push_back(name + std::string(kBoundary));
     std::int32_t place = 0;
     for (const SolverPart& part : mesh.parts())

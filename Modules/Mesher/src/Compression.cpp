@@ -49,10 +49,10 @@ struct Finish {
 /// The higher power takes stars over the line that are near it; it would only spread what is bad elsewhere.
 constexpr std::array<Finish, 2> kFinish{{{12, 16, 1.02, 0.7}, {8, 64, 0.985, 0.9, 1.1}}};
 
-class Compressor {
+class StarCompressor {
  public:
-  Compressor(TetMesh& mesh, const SignedDistance& phi, const CompressionOptions& options,
-             const std::vector<std::uint8_t>& region)
+  StarCompressor(TetMesh& mesh, const SignedDistance& phi, const CompressionOptions& options,
+                 const std::vector<std::uint8_t>& region)
       : mesh_(mesh),
         phi_(phi),
         options_(options),
@@ -351,7 +351,7 @@ class Compressor {
 CompressionReport compressOntoSurface(TetMesh& mesh, const SignedDistance& phi,
                                       const CompressionOptions& options,
                                       const std::vector<std::uint8_t>& region) {
-  return Compressor(mesh, phi, options, region).run();
+  return StarCompressor(mesh, phi, options, region).run();
 }
 
 }  // namespace sinew

@@ -27,7 +27,7 @@ constexpr std::size_t kMostEnveloped = 8;
 constexpr std::size_t kMostInner = 6;   // enveloped nodes that are given up in turn at a spot
 constexpr std::size_t kMostOuter = 10;  // boundary nodes that are taken in in turn at a spot
 constexpr double kWorstStart = 100;     // F with which a trial may begin
-constexpr std::size_t kPatchGrain = 256;     // nodes of patches per task
+constexpr std::size_t kPatchGrain = 256;  // nodes of patches per task
 
 using Nodes = std::vector<std::int32_t>;
 

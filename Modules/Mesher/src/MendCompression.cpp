@@ -9,7 +9,7 @@
 namespace sinew {
 namespace {
 
-constexpr int kRings = 2;
+constexpr int kMendedRings = 2;
 
 }  // namespace
 
@@ -28,7 +28,7 @@ MendReport mendCompression(TetMesh& mesh, const SignedDistance& phi, const Compr
   });
   for (const Tet& tet : bad)
     for (const std::int32_t v : tet) region[v] = 1;
-  growRings(mesh, kRings, region);
+  growRings(mesh, kMendedRings, region);
   report.tets = std::ssize(bad);
   report.nodes = std::ranges::count(region, std::uint8_t{1});
   if (report.nodes > 0) report.compression = compressOntoSurface(mesh, phi, options, region);

@@ -22,7 +22,8 @@ std::vector<Int3> randomNodes(unsigned seed, int count) {
   std::vector<Int3> nodes;
   for (int k = 0; k < count; ++k) {
     const int odd = below(2);
-    nodes.push_back({2 * below(kPagedCells.x) + odd, 2 * below(kPagedCells.y) + odd, 2 * below(kPagedCells.z) + odd});
+    nodes.push_back(
+        {2 * below(kPagedCells.x) + odd, 2 * below(kPagedCells.y) + odd, 2 * below(kPagedCells.z) + odd});
   }
   return nodes;
 }

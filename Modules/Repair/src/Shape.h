@@ -28,6 +28,8 @@ struct Shape {
 };
 using ShapePtr = std::shared_ptr<const Shape>;
 
-inline bool isFinite(const Eigen::AlignedBox3d& box) { return box.min().allFinite() && box.max().allFinite(); }
+inline bool isFinite(const Eigen::AlignedBox3d& box) {
+  return box.min().allFinite() && box.max().allFinite();
+}
 
 }  // namespace sinew::repair

@@ -24,9 +24,10 @@ struct LabelMapFormat {
   void (*write)(const Segmentation&, const fs::path&);
 };
 
-constexpr std::array kLabelMapFormats{LabelMapFormat{".nrrd", writePlainNrrd}, LabelMapFormat{".nii", writeNifti},
-                              LabelMapFormat{".nii.gz", writeNifti}, LabelMapFormat{".mha", writeMeta},
-                              LabelMapFormat{".mhd", writeMeta}};
+constexpr std::array kLabelMapFormats{LabelMapFormat{".nrrd", writePlainNrrd},
+                                      LabelMapFormat{".nii", writeNifti},
+                                      LabelMapFormat{".nii.gz", writeNifti},
+                                      LabelMapFormat{".mha", writeMeta}, LabelMapFormat{".mhd", writeMeta}};
 
 const LabelMapFormat* labelMapFormatOf(const fs::path& file) {
   const std::string name = text::lower(file.filename().string());

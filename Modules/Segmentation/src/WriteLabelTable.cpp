@@ -115,7 +115,7 @@ struct TableFormat {
 };
 
 constexpr std::array kTableFormats{TableFormat{".ctbl", ctbl}, TableFormat{".csv", csv},
-                              TableFormat{".tsv", bids}};
+                                   TableFormat{".tsv", bids}};
 
 const TableFormat* tableFormatOf(const fs::path& file) {
   const auto found =

@@ -81,7 +81,8 @@ TEST(ReadSegmentation, LabelsUpToBothEndsOf32Bits) {
   std::vector<std::int64_t> labels(24, 0);
   labels[3] = INT32_MAX;
   labels[4] = INT32_MIN;
-  const Segmentation s = test::segmentationFrom("a.nrrd", test::nrrd({.type = "int64"}, test::bytesOf(labels)));
+  const Segmentation s =
+      test::segmentationFrom("a.nrrd", test::nrrd({.type = "int64"}, test::bytesOf(labels)));
   EXPECT_EQ(s.layers[0][3], INT32_MAX);
   EXPECT_EQ(s.layers[0][4], INT32_MIN);
   EXPECT_EQ(s.tissues[0].name, "Segment_-2147483648");
@@ -283,7 +284,8 @@ TEST(ReadSegmentation, LayersNeverMixWhateverTheirNumber) {
     NrrdSpec spec = layeredSpec(layers, "list");
     for (int n = 0; n < layers; ++n)
       spec.extra += segment(n, "on layer " + std::to_string(n), layeredValue(n, 0), n);
-    const Segmentation s = test::segmentationFrom("a.seg.nrrd", test::nrrd(spec, test::bytesOf(layeredVoxels(layers))));
+    const Segmentation s =
+        test::segmentationFrom("a.seg.nrrd", test::nrrd(spec, test::bytesOf(layeredVoxels(layers))));
     ASSERT_EQ(s.layers.size(), static_cast<std::size_t>(layers));
     ASSERT_EQ(s.tissues.size(), static_cast<std::size_t>(layers));
     for (int layer = 0; layer < layers; ++layer) {
@@ -299,7 +301,9 @@ TEST(ReadSegmentation, LayersNeverMixWhateverTheirNumber) {
 TEST(ReadSegmentation, SlicerLayersMayBeOfVectorKind) {
   NrrdSpec spec = layeredSpec(2, "vector");
   spec.extra = segment(0, "a", 1, 0) + segment(1, "b", 1, 1);
-  EXPECT_EQ(test::segmentationFrom("a.nrrd", test::nrrd(spec, test::bytesOf(layeredVoxels(2)))).tissues[1].name, "b");
+  EXPECT_EQ(
+      test::segmentationFrom("a.nrrd", test::nrrd(spec, test::bytesOf(layeredVoxels(2)))).tissues[1].name,
+      "b");
 }
 
 TEST(ReadSegmentation, ListWithoutSegmentsHasUnnamedLayers) {

@@ -48,10 +48,11 @@ TEST(SegmentationFiles, S1_OneLayerEqualsItsHeaderInLpsAndRas) {
                                              {"Layer", "0"},
                                              {"Tags", "a:b|TerminologyEntry:x~SCT^1^y:z|"}});
   const auto in = [&](const std::string& space) {
-    return test::segmentationFrom("a.seg.nrrd", small({.geometry = "space: " + space +
-                                                      "\nspace directions: (1,0,0) (0,1,0) (0,0,2)\n"
-                                                      "space origin: (-70.5,20,30)\n"},
-                                         lines));
+    return test::segmentationFrom("a.seg.nrrd",
+                                  small({.geometry = "space: " + space +
+                                                     "\nspace directions: (1,0,0) (0,1,0) (0,0,2)\n"
+                                                     "space origin: (-70.5,20,30)\n"},
+                                        lines));
   };
   const Segmentation lps = in("left-posterior-superior"), ras = in("right-anterior-superior");
   for (const Segmentation* s : {&lps, &ras}) {
@@ -79,7 +80,8 @@ TEST(SegmentationFiles, S2_ASegmentIsItsLabelOnItsLayer) {
       .extra = segmentLines(0, {{"ID", "a"}, {"Layer", "0"}, {"LabelValue", "1"}}) +
                segmentLines(1, {{"ID", "b"}, {"Layer", "1"}, {"LabelValue", "1"}}) +
                segmentLines(2, {{"ID", "c"}, {"Layer", "1"}, {"LabelValue", "2"}})};
-  const Segmentation s = test::segmentationFrom("a.seg.nrrd", test::nrrd(spec, {1, 1, 1, 0, 0, 1, 1, 2, 0, 0, 0, 2}));
+  const Segmentation s =
+      test::segmentationFrom("a.seg.nrrd", test::nrrd(spec, {1, 1, 1, 0, 0, 1, 1, 2, 0, 0, 0, 2}));
   ASSERT_EQ(s.tissues.size(), 3u);
   EXPECT_EQ(s.layers[0], (std::vector<std::int32_t>{1, 1, 0, 1, 0, 0}));
   EXPECT_EQ(s.layers[1], (std::vector<std::int32_t>{1, 0, 1, 2, 0, 2}));
@@ -104,10 +106,11 @@ TEST(SegmentationFiles, S4_WhatIsMissingIsAsInSlicer) {
   EXPECT_EQ(s.tissues[0].layer, 0);
   EXPECT_EQ(s.tissues[0].color, (std::array<double, 3>{0.5, 0.5, 0.5}));
   EXPECT_EQ(s.tissues[2].name, "Segment_7") << "reading stops at the first missing ID";
-  EXPECT_EQ(test::segmentationFrom("b.nrrd", small({}, segmentLines(0, {{"ID", "x"}, {"DefaultColor", "0 1 0"}})))
-                .tissues[0]
-                .color,
-            (std::array<double, 3>{0, 1, 0}));
+  EXPECT_EQ(
+      test::segmentationFrom("b.nrrd", small({}, segmentLines(0, {{"ID", "x"}, {"DefaultColor", "0 1 0"}})))
+          .tissues[0]
+          .color,
+      (std::array<double, 3>{0, 1, 0}));
   const std::string error =
       slicerErrorOf(small({}, segmentLines(0, {{"ID", "a"}}) + segmentLines(1, {{"ID", "fat"}})));
   EXPECT_NE(error.find("segment `fat` lies on layer 1"), std::string::npos) << error;
@@ -173,15 +176,17 @@ TEST(SegmentationFiles, S7_ComponentsNeverMix) {
 
 TEST(SegmentationFiles, S8_NothingToSeeIsSaid) {
   const NrrdSpec one{.sizes = "1 1 1"};
-  EXPECT_NE(slicerErrorOf(test::nrrd(one, std::string(2, '\0'))).find("holds a single voxel"), std::string::npos);
-  const std::string nothing(48, '\0');
-  EXPECT_NE(slicerErrorOf(test::nrrd({.extra = "Segmentation_MasterRepresentation:=Binary labelmap\n"}, nothing))
-                .find("no voxel other than 0"),
+  EXPECT_NE(slicerErrorOf(test::nrrd(one, std::string(2, '\0'))).find("holds a single voxel"),
             std::string::npos);
+  const std::string nothing(48, '\0');
   EXPECT_NE(
-      slicerErrorOf(test::nrrd({.extra = segmentLines(0, {{"ID", "a"}, {"Extent", "0 -1 0 -1 0 -1"}})}, nothing))
+      slicerErrorOf(test::nrrd({.extra = "Segmentation_MasterRepresentation:=Binary labelmap\n"}, nothing))
           .find("no voxel other than 0"),
       std::string::npos);
+  EXPECT_NE(slicerErrorOf(
+                test::nrrd({.extra = segmentLines(0, {{"ID", "a"}, {"Extent", "0 -1 0 -1 0 -1"}})}, nothing))
+                .find("no voxel other than 0"),
+            std::string::npos);
 }
 
 TEST(SegmentationFiles, ExtentsCropTheirLayerAsInSlicerAndItIsSaid) {
@@ -208,7 +213,8 @@ TEST(SegmentationFiles, ExtentsCropTheirLayerAsInSlicerAndItIsSaid) {
   EXPECT_TRUE(with("0 -1 0 -1 0 -1", "-2000000000 2000000000 0 9 -3 1").warnings.empty())
       << "reaches out: all";
   EXPECT_EQ(with("nonsense", "").layers[0], test::smallLabels());
-  const std::string error = slicerErrorOf(small({}, segmentLines(0, {{"ID", "a"}, {"Extent", "0 -1 0 -1 0 -1"}})));
+  const std::string error =
+      slicerErrorOf(small({}, segmentLines(0, {{"ID", "a"}, {"Extent", "0 -1 0 -1 0 -1"}})));
   EXPECT_NE(error.find("has no voxel inside of the Extents of its segments"), std::string::npos) << error;
 }
 

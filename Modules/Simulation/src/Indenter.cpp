@@ -37,16 +37,16 @@ struct Surface {
   }
 };
 
-struct Extent {
+struct Interval {
   double least = 1e300, largest = -1e300;
   double size() const { return largest - least; }
 };
 
 /// Of the surface around the middle of the axis, along a direction across it.
-Extent extentAlong(const TetMesh& mesh, const Surface& surface, const Vector3d& middle, const Vector3d& axis,
-                   const Vector3d& direction) {
+Interval extentAlong(const TetMesh& mesh, const Surface& surface, const Vector3d& middle,
+                     const Vector3d& axis, const Vector3d& direction) {
   constexpr double kSlab = 0.1;  // of the length, either side of the middle
-  Extent length, across;
+  Interval length, across;
   for (const std::int32_t n : surface.nodes) {
     const double along = (mesh.nodes[static_cast<std::size_t>(n)] - middle).dot(axis);
     length.least = std::min(length.least, along);
