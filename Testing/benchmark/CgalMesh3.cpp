@@ -104,9 +104,10 @@ void run(const Options& options) {
   const Eigen::Affine3d toPhysical = geometry.indexToPhysical() *
                                      Eigen::Translation3d(box.lower.cast<double>()) *
                                      Eigen::Scaling(geometry.spacing.cwiseInverse().eval());
-  writeMesh({toTetMesh(complex, toPhysical, tissue.label), {{tissue.label, tissue.name, tissue.color}}, {}},
-            options.output);
-  std::cout << "{\"tets\": " << mesh.tets.size() << "}\n";
+  const TissueMesh mesh{
+      toTetMesh(complex, toPhysical, tissue.label), {{tissue.label, tissue.name, tissue.color}}, {}};
+  writeMesh(mesh, options.output);
+  std::cout << "{\"tets\": " << mesh.mesh.tets.size() << "}\n";
 }
 
 }  // namespace
