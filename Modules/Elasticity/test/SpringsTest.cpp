@@ -199,5 +199,27 @@ TEST(Springs, RefuseOptionsOutOfRange) {
   EXPECT_THROW(AltitudeSprings(body, {.actsBelow = 0}), std::invalid_argument);
 }
 
+// k = m / T^2: with the same masses, a displacement has the same forces whatever the size of the mesh.
+TEST(Springs, ACrossingTimeGivesTheSameRatesInLargeAndSmallTets) {
+  TetMesh small = oneTet(), large = oneTet();
+  for (Vector3d& node : large.nodes) node *= 4;
+  const ElasticBody bodies[]{elasticBody(small, 1e-6), elasticBody(large, 1e-6 / 64)};
+  NodeVectors forces[2][2];
+  for (std::size_t k = 0; k < 2; ++k) {
+    const SpringOptions options{.crossingTime = 0.5};
+    NodeVectors places = bodies[k].rest;
+    for (std::size_t n = 0; n < places.size(); ++n)
+      places[n] += 1e-3 * Vector3d(std::sin(double(n)), std::cos(double(n)), 0.3 * double(n));
+    forces[0][k] = forcesOf(EdgeSprings(bodies[k], options), bodies[k], places);
+    forces[1][k] = forcesOf(AltitudeSprings(bodies[k], {options}), bodies[k], places);
+  }
+  for (const auto& [ofSmall, ofLarge] : forces)
+    for (std::size_t n = 0; n < ofSmall.size(); ++n) {
+      EXPECT_GT(ofSmall[n].norm(), 0);
+      // The displacement turns the springs by 1e-3 of their length at most.
+      EXPECT_LT((ofSmall[n] - ofLarge[n]).norm(), 1e-2 * ofSmall[n].norm());
+    }
+}
+
 }  // namespace
 }  // namespace sinew

@@ -113,6 +113,37 @@ TEST(GenerateTetMesh, TheBoundaryNodesOfASphereLieAtItsRadius) {
   }
 }
 
+TEST(GenerateTetMesh, ACompressorOfTheCallerGetsTheCandidate) {
+  const test::AnalyticSphere ball({0.1, 0.2, 0.3}, 5);
+  GenerateTetMeshOptions options = withEdge(1);
+  int calls = 0;
+  options.compressor = [&](TetMesh& mesh, const SignedDistance& phi, const CompressionOptions& compression) {
+    ++calls;
+    EXPECT_EQ(compression.edgeLength, 1);
+    return compressOntoSurface(mesh, phi, compression);
+  };
+  EXPECT_EQ(generateTetMesh(ball, options).nodes, generateTetMesh(ball, withEdge(1)).nodes);
+  EXPECT_EQ(calls, 1);
+}
+
+TEST(GenerateTetMesh, OnlyTetsBeyondTheBoundsMakeTheCandidateGiveWay) {
+  const test::AnalyticSphere ball({0.1, 0.2, 0.3}, 5);
+  GenerateTetMeshOptions options = withEdge(1);
+  options.compressor = [&](TetMesh& mesh, const SignedDistance& phi, const CompressionOptions& compression) {
+    CompressionReport report = compressOntoSurface(mesh, phi, compression);
+    const auto& [a, b, c, d] = mesh.tets.front();  // left flat
+    auto& x = mesh.nodes;
+    x[a] += 0.9 * ((x[b] + x[c] + x[d]) / 3 - x[a]);
+    return report;
+  };
+  GenerateTetMeshReport usual, loose;
+  generateTetMesh(ball, options, &usual);
+  options.repair = {{1e6, 0, 180}, {1e6, 0, 180}};
+  generateTetMesh(ball, options, &loose);
+  EXPECT_GT(usual.patchesTried, 0);
+  EXPECT_EQ(loose.patchesTried, 0);
+}
+
 TEST(GenerateTetMesh, SameBitsForAnyNumberOfThreadsAndEveryRun) {
   const test::RandomShape shape = test::randomShape(8);
   const auto withThreads = [&](std::size_t count) {
