@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kEdge = 1;
+constexpr double kMendedEdge = 1;
 constexpr TetBounds kBounds{5, 17, 147};
 
 const test::AnalyticSphere& ball() {
@@ -21,7 +21,7 @@ const test::AnalyticSphere& ball() {
 
 TetMesh compressedBall() {
   GenerateTetMeshOptions options;
-  options.edgeLength = kEdge;
+  options.edgeLength = kMendedEdge;
   return generateTetMesh(ball(), options);
 }
 
@@ -49,7 +49,7 @@ std::int32_t firstInteriorNode(const TetMesh& mesh) {
 TEST(MendCompression, MovesNothingInAGoodMesh) {
   TetMesh mesh = compressedBall();
   const auto before = mesh.nodes;
-  const MendReport report = mendCompression(mesh, ball(), {.edgeLength = kEdge}, kBounds);
+  const MendReport report = mendCompression(mesh, ball(), {.edgeLength = kMendedEdge}, kBounds);
   EXPECT_EQ(report.tets, 0);
   EXPECT_EQ(report.nodes, 0);
   EXPECT_EQ(mesh.nodes, before);
@@ -63,13 +63,13 @@ TEST(MendCompression, MendsABadTetAndMovesOnlyWhatIsNear) {
   const auto before = mesh.nodes;
   ASSERT_GT(tetsBeyond(kBounds, mesh), 0);
   const std::int64_t bad = tetsBeyond(kBounds, mesh);
-  const MendReport report = mendCompression(mesh, ball(), {.edgeLength = kEdge}, kBounds);
+  const MendReport report = mendCompression(mesh, ball(), {.edgeLength = kMendedEdge}, kBounds);
   EXPECT_EQ(report.tets, bad);
   EXPECT_EQ(tetsBeyond(kBounds, mesh), 0);
   EXPECT_TRUE(report.compression.unsnapped.empty());
   for (std::size_t n = 0; n < before.size(); ++n) {
     // The star of the node, and two rings around it, of edges of up to an edge length.
-    if ((before[n] - before[node]).norm() > 5 * kEdge) {
+    if ((before[n] - before[node]).norm() > 5 * kMendedEdge) {
       EXPECT_EQ(mesh.nodes[n], before[n]);
     }
   }
@@ -80,11 +80,11 @@ TEST(MendCompression, PutsNodesBackOntoTheSurface) {
   const auto node =
       static_cast<std::size_t>(std::ranges::find(mesh.kinds, NodeKind::Boundary) - mesh.kinds.begin());
   const Vector3d inwards = (Vector3d(0.1, 0.2, 0.3) - mesh.nodes[node]).normalized();
-  mesh.nodes[node] += 0.1 * kEdge * inwards;
-  const CompressionOptions options{.edgeLength = kEdge};
+  mesh.nodes[node] += 0.1 * kMendedEdge * inwards;
+  const CompressionOptions options{.edgeLength = kMendedEdge};
   const MendReport report = mendCompression(mesh, ball(), options, kBounds);
   EXPECT_GT(report.nodes, 0);
-  EXPECT_LE(std::abs(ball().value(mesh.nodes[node])), options.surfaceTolerance * kEdge);
+  EXPECT_LE(std::abs(ball().value(mesh.nodes[node])), options.surfaceTolerance * kMendedEdge);
 }
 
 }  // namespace
