@@ -1,5 +1,6 @@
 #include "Indenter.h"
 
+#include "SurfaceLayers.h"
 #include "TrialText.h"
 #include "sinew/Mesher/MeshConditions.h"
 
@@ -17,12 +18,14 @@ using Eigen::Vector3d;
 
 /// The boundary's nodes with the sums of the normals around them, by area.
 struct Surface {
+  std::vector<Triangle> triangles;
   std::vector<std::int32_t> nodes;
   std::vector<Vector3d> normals;  // of all nodes of the mesh
 
-  explicit Surface(const TetMesh& mesh) : normals(mesh.nodes.size(), Vector3d::Zero()) {
+  explicit Surface(const TetMesh& mesh)
+      : triangles(meshBoundary(mesh).triangles), normals(mesh.nodes.size(), Vector3d::Zero()) {
     std::vector<bool> found(mesh.nodes.size(), false);
-    for (const auto& [a, b, c] : meshBoundary(mesh).triangles) {
+    for (const auto& [a, b, c] : triangles) {
       const auto at = [&](std::int32_t n) -> const Vector3d& {
         return mesh.nodes[static_cast<std::size_t>(n)];
       };
@@ -95,16 +98,17 @@ Indenter placeIndenter(const TetMesh& mesh, const Vector3d& middle, const Vector
   }
   indenter.thickness = extentAlong(mesh, surface, middle, axis, indenter.push).size();
   const double radius = indenter.thickness / 2;
+  const SurfaceLayers layers(mesh, surface.triangles, indenter.push);
   for (const std::int32_t n : surface.nodes) {
     const Vector3d from = mesh.nodes[static_cast<std::size_t>(n)] - middle;
     const double lateral = (from - indenter.push * indenter.push.dot(from)).norm();
     const double facing = surface.normals[static_cast<std::size_t>(n)].normalized().dot(indenter.push);
     constexpr double kFacing = 0.5;  // within 60 degrees
-    if (facing < -kFacing && lateral < radius) {
+    if (facing < -kFacing && lateral < radius && !layers.around(n).before) {
       const double cosine = std::cos(std::numbers::pi / 2 * lateral / radius);
       indenter.patch.push_back(n);
       indenter.shares.push_back(cosine * cosine);
-    } else if (facing > kFacing) {
+    } else if (facing > kFacing && !layers.around(n).after) {
       indenter.bed.push_back(n);
     }
   }

@@ -15,7 +15,9 @@ struct Indenter {
   std::vector<std::int32_t> bed;  ///< boundary nodes opposite, which stay
 };
 
-/// An indenter of the radius R of half the thickness, whose line goes through `middle` across `axis`.
+/// An indenter of the radius R of half the thickness, whose line goes through `middle` across `axis`. It pushes
+/// the surface that lines along the push meet first, and the bed is what they meet last: the walls of a cavity
+/// are neither.
 /// @param push  across the axis as far as it goes; the way through the mesh that is shortest unless given
 /// @throws std::invalid_argument when the line meets no surface, or a push is along the axis
 Indenter placeIndenter(const TetMesh& mesh, const Eigen::Vector3d& middle, const Eigen::Vector3d& axis,
