@@ -1,5 +1,6 @@
 #include "sinew/Elasticity/Newmark.h"
 #include "sinew/Elasticity/Springs.h"
+#include "sinew/Elasticity/StrainLimits.h"
 #include "sinew/TestSupport/ElasticBars.h"
 
 #include <gtest/gtest.h>
@@ -7,6 +8,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace sinew {
 namespace {
@@ -81,15 +83,135 @@ struct MovingBar {
   }
 };
 
-TEST(Newmark, KeepsLinearMomentumAndTurnsLittle) {
+constexpr double kFarthest = 10;  // mm, of a node of the bar from the origin
+
+Vector3d angularMomentum(const MovingBar& bar) { return test::moment(bar.motion.places, bar.momentum()); }
+
+// x' x m v' = x' x (m v* + dt/2 f(x')) = (x + dt v*) x m v* = x x (m v + dt/2 f(x)) = x x m v
+TEST(Newmark, AStepWithoutDampingKeepsBothMomenta) {
   MovingBar bar;
-  const Vector3d before = test::total(bar.momentum());
-  const double scale = test::magnitude(bar.momentum());
+  FiniteElements elements(bar.body, *bar.material, {});
+  EdgeSprings edges(bar.body, {.damping = 0});
+  AltitudeSprings altitudes(bar.body, {.springs = {.damping = 0}});
   const double dt = stableStep(bar.body, bar.body.rest, 7000);
-  for (int step = 0; step < 20; ++step)
+  for (ForceModel* forces : std::initializer_list<ForceModel*>{&elements, &edges, &altitudes})
+    for (int step = 0; step < 10; ++step) {
+      const Vector3d linear = test::total(bar.momentum()), angular = angularMomentum(bar);
+      const double scale = test::magnitude(bar.momentum());
+      newmarkStep(bar.body, *forces, NodeConstraints(bar.body.nodeCount()), dt, bar.motion,
+                  {.tolerance = 1e-13});
+      EXPECT_LT((test::total(bar.momentum()) - linear).norm(), 1e-12 * scale);
+      EXPECT_LT((angularMomentum(bar) - angular).norm(), 1e-12 * kFarthest * scale);
+    }
+}
+
+/// Passes forces on, and asks of each that it has no moment about the places where it acts.
+class TorqueFree final : public ForceModel {
+ public:
+  explicit TorqueFree(ForceModel& forces) : forces_(forces) {}
+  double energy(const NodeVectors& places) const override { return forces_.energy(places); }
+  void addForces(const NodeVectors& places, NodeVectors& forces) const override {
+    NodeVectors added(forces.size(), Vector3d::Zero());
+    forces_.addForces(places, added);
+    expectNoTorque(places, added);
+    forces = test::sum(forces, added);
+  }
+  void moveTo(const NodeVectors& places) override {
+    places_ = places;
+    forces_.moveTo(places);
+  }
+  void addDamping(const NodeVectors& velocities, NodeVectors& forces) const override {
+    NodeVectors added(forces.size(), Vector3d::Zero());
+    forces_.addDamping(velocities, added);
+    expectNoTorque(places_, added);
+    forces = test::sum(forces, added);
+  }
+  int evaluations() const { return evaluations_; }
+
+ private:
+  void expectNoTorque(const NodeVectors& places, const NodeVectors& forces) const {
+    EXPECT_LT(test::moment(places, forces).norm(), 1e-12 * kFarthest * test::magnitude(forces));
+    ++evaluations_;
+  }
+
+  ForceModel& forces_;
+  NodeVectors places_;
+  mutable int evaluations_ = 0;
+};
+
+// Every force and every damping force that a step evaluates.
+TEST(Newmark, NoForceOfAStepHasATorque) {
+  MovingBar bar;
+  EdgeSprings edges(bar.body);
+  AltitudeSprings altitudes(bar.body);
+  const double dt = stableStep(bar.body, bar.body.rest, 7000);
+  for (ForceModel* forces : std::initializer_list<ForceModel*>{&bar.forces, &edges, &altitudes}) {
+    TorqueFree checked(*forces);
+    for (int step = 0; step < 3; ++step)
+      newmarkStep(bar.body, checked, NodeConstraints(bar.body.nodeCount()), dt, bar.motion);
+    EXPECT_GT(checked.evaluations(), 3 * 5);
+  }
+}
+
+// Damping and limits have no torque where they act, but the places move on by dt w, with w = v* after its limits:
+//     L' - L = dt w x m v* + dt^2/2 w x D(x) (v - v*),  P' = P
+// and this is all.
+TEST(Newmark, DampingAndLimitsTurnABodyByTheirKnownTermOnly) {
+  for (const double change : {1e3, 0.01}) {  // at most, of an altitude in a step: none is limited, or many
+    MovingBar bar;
+    const StrainLimits limits(bar.body, {.strain = 0.99, .change = change});
+    const NodeConstraints constraints(bar.body.nodeCount());
+    const double dt = stableStep(bar.body, bar.body.rest, 7000);
+    bar.motion.velocities = test::randomVectors(bar.body.nodeCount(), 500, 2);
+    for (int step = 0; step < 5; ++step) {
+      const NodeVectors v = bar.motion.velocities;
+      const Vector3d linear = test::total(bar.momentum()), angular = angularMomentum(bar);
+      const double scale = test::magnitude(bar.momentum());
+      Vector3d expected = Vector3d::Zero();
+      bool atHalf = true;
+      const auto limit = [&](const NodeVectors& places, double, NodeVectors& velocities) {
+        NodeVectors half = velocities, slower(v.size()), damping(v.size(), Vector3d::Zero());
+        limits.apply(constraints, places, dt, velocities);
+        EXPECT_EQ(half != velocities, change < 1);
+        for (std::size_t n = 0; n < v.size(); ++n) {
+          slower[n] = v[n] - half[n];
+          half[n] *= dt * bar.body.masses[n];
+        }
+        if (!std::exchange(atHalf, false)) return;
+        bar.forces.addDamping(slower, damping);
+        expected = test::moment(velocities, half) + dt * dt / 2 * test::moment(velocities, damping);
+      };
+      newmarkStep(bar.body, bar.forces, constraints, dt, bar.motion, {.tolerance = 1e-14, .limit = limit});
+      EXPECT_LT((test::total(bar.momentum()) - linear).norm(), 1e-12 * scale);
+      EXPECT_GT(expected.norm(), 1e-9 * kFarthest * scale);
+      EXPECT_LT((angularMomentum(bar) - angular - expected).norm(), 1e-12 * kFarthest * scale);
+    }
+  }
+}
+
+/// Change of the angular momentum of a damped bar in one step, and in all up to a time.
+struct Drift {
+  double ofAStep = 0, inAll = 0;
+};
+Drift angularDrift(int steps) {
+  MovingBar bar;
+  const double dt = stableStep(bar.body, bar.body.rest, 7000, 0.04) / steps;
+  const Vector3d start = angularMomentum(bar);
+  Drift drift;
+  for (int step = 0; step < steps; ++step) {
     newmarkStep(bar.body, bar.forces, NodeConstraints(bar.body.nodeCount()), dt, bar.motion,
                 {.tolerance = 1e-13});
-  EXPECT_LT((test::total(bar.momentum()) - before).norm(), 20 * 1e-12 * scale);
+    drift.inAll = (angularMomentum(bar) - start).norm();
+    if (step == 0) drift.ofAStep = drift.inAll;
+  }
+  return drift;
+}
+
+// v - v* is dt/2 times an acceleration: the known term is O(dt^3) in a step and O(dt^2) in a time.
+TEST(Newmark, DampingTurnsABodyAtTheOrderOfTheScheme) {
+  const Drift coarse = angularDrift(16), fine = angularDrift(32);
+  EXPECT_NEAR(std::log2(coarse.ofAStep / fine.ofAStep), 3, 0.1);
+  EXPECT_NEAR(std::log2(coarse.inAll / fine.inAll), 2, 0.1);
 }
 
 TEST(Newmark, DampingOnlyTakesEnergy) {
