@@ -156,14 +156,16 @@ TEST(AltitudeSprings, BringAnInvertedTetBackWhereEdgesDoNot) {
   EXPECT_NEAR(heightAfterRelease(altitudes, body), 2, 0.05);
 }
 
+constexpr double kLength = 16, kSpeed = 1000;  // mm, mm/s
+
 /// Time for a push at one end of a bar to arrive at the other, as the time when half of the step has come
 /// through.
 double arrival(double cube) {
-  const double length = 16, width = 2;
+  const double length = kLength, width = 2;
   const int along = static_cast<int>(std::lround(length / cube)),
             across = static_cast<int>(std::lround(width / cube));
   const ElasticBody body = elasticBody(test::barMesh({along, across, across}, cube));
-  EdgeSprings springs(body, {.soundSpeed = 1000, .damping = 0.2});
+  EdgeSprings springs(body, {.soundSpeed = kSpeed, .damping = 0.2});
   NodeConstraints constraints(body.nodeCount());
   const double speed = 10;
   for (std::size_t n = 0; n < body.nodeCount(); ++n)
@@ -173,7 +175,7 @@ double arrival(double cube) {
       constraints.velocities[n] = speed * Vector3d::UnitX();
     }
   Motion motion{body.rest, zeros(body)};
-  const double dt = stableStep(body, body.rest, 1000, 0.25);
+  const double dt = stableStep(body, body.rest, kSpeed, 0.25);
   const auto farEnd = [&] {
     double sum = 0;
     int count = 0;
@@ -187,8 +189,10 @@ double arrival(double cube) {
 }
 
 // k ~ m / l0 makes the speed of waves a property of the material, not of the mesh.
-TEST(EdgeSprings, WavesAreAsFastOnAMeshTwiceAsFine) {
+TEST(EdgeSprings, WavesHaveTheSpeedOfSoundOnAMeshAndOnOneTwiceAsFine) {
   const double coarse = arrival(1), fine = arrival(0.5);
+  EXPECT_NEAR(kLength / coarse / kSpeed, 1, 0.05);
+  EXPECT_NEAR(kLength / fine / kSpeed, 1, 0.05);
   EXPECT_NEAR(fine / coarse, 1, 0.05);
 }
 
