@@ -22,8 +22,9 @@ struct Bar {
   }
 };
 
+/// CPU time of all threads.
 void sizes(benchmark::internal::Benchmark* bench) {
-  bench->Arg(10'000)->Arg(50'000)->Arg(200'000)->Unit(benchmark::kMillisecond);
+  bench->Arg(10'000)->Arg(50'000)->Arg(200'000)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
 }
 
 void countTets(benchmark::State& state, const Bar& bar, double updates = 1) {
@@ -43,8 +44,13 @@ BENCHMARK(forcesOf<stVenantKirchhoff>)->Apply(sizes);
 BENCHMARK(forcesOf<neoHookean>)->Apply(sizes);
 BENCHMARK(forcesOf<corotated>)->Apply(sizes);
 
-/// One step with all that it does: items are evaluations of a tet, two of forces and one per damping product.
-template <class Make>
+constexpr double kTolerance = 0.05;  // of the conjugate gradients in compression by physics
+
+/// One step with all that it does, with the tolerance of compression's conjugate gradients. Two rates are counted:
+/// `stepped`, the tets of the body per CPU second of whole steps (a tet counts once in a step, whatever is done to
+/// it), and `items`, the updates: evaluations of a tet's forces (two in a step) or of its damping forces, if it has
+/// any (three and one for each iteration of the conjugate gradients).
+template <bool damped, class Make>
 void steps(benchmark::State& state, const Make& make) {
   Bar bar(state);
   const auto forces = make(bar.body);
@@ -53,24 +59,46 @@ void steps(benchmark::State& state, const Make& make) {
   double updates = 0;
   for (auto _ : state) {
     const NewmarkReport report =
-        newmarkStep(bar.body, *forces, constraints, 1e-6, motion, {.tolerance = 1e-4});
-    updates += 2 + 3 + report.iterations;  // forces; starting residuals and D v; iterations
+        newmarkStep(bar.body, *forces, constraints, 1e-6, motion, {.tolerance = kTolerance});
+    updates += 2;                                  // forces
+    if (damped) updates += 3 + report.iterations;  // starting residuals and D v; iterations
   }
-  state.SetItemsProcessed(static_cast<std::int64_t>(updates * static_cast<double>(bar.body.tets.size())));
+  const auto tets = static_cast<double>(bar.body.tets.size());
+  state.SetItemsProcessed(static_cast<std::int64_t>(updates * tets));
+  state.counters["stepped"] =
+      benchmark::Counter(static_cast<double>(state.iterations()) * tets, benchmark::Counter::kIsRate);
 }
 
+/// With or without damping inside of tets; compression by physics has none by default.
+template <bool damped>
 void newmarkFiniteElements(benchmark::State& state) {
   const auto material = neoHookean(lame(30, 0.4));
-  steps(state, [&](const ElasticBody& body) {
-    return std::make_unique<FiniteElements>(body, *material, Damping{.alpha = 0.01, .beta = 0.01});
+  const double viscosity = damped ? 0.01 : 0;  // kPa s
+  steps<damped>(state, [&](const ElasticBody& body) {
+    return std::make_unique<FiniteElements>(body, *material, Damping{.alpha = viscosity, .beta = viscosity});
   });
 }
-BENCHMARK(newmarkFiniteElements)->Apply(sizes);
+BENCHMARK(newmarkFiniteElements<true>)->Apply(sizes);
+BENCHMARK(newmarkFiniteElements<false>)->Apply(sizes);
 
+template <bool damped>
 void newmarkAltitudeSprings(benchmark::State& state) {
-  steps(state, [](const ElasticBody& body) { return std::make_unique<AltitudeSprings>(body); });
+  steps<damped>(state, [](const ElasticBody& body) {
+    return std::make_unique<AltitudeSprings>(body,
+                                             AltitudeSpringOptions{.springs = {.damping = damped ? 0.1 : 0}});
+  });
 }
-BENCHMARK(newmarkAltitudeSprings)->Apply(sizes);
+BENCHMARK(newmarkAltitudeSprings<true>)->Apply(sizes);
+BENCHMARK(newmarkAltitudeSprings<false>)->Apply(sizes);
+
+template <bool damped>
+void newmarkEdgeSprings(benchmark::State& state) {
+  steps<damped>(state, [](const ElasticBody& body) {
+    return std::make_unique<EdgeSprings>(body, SpringOptions{.damping = damped ? 0.1 : 0});
+  });
+}
+BENCHMARK(newmarkEdgeSprings<true>)->Apply(sizes);
+BENCHMARK(newmarkEdgeSprings<false>)->Apply(sizes);
 
 void strainLimits(benchmark::State& state) {
   const Bar bar(state);
