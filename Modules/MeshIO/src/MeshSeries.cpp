@@ -10,7 +10,7 @@ namespace sinew {
 namespace {
 
 /// pugixml's own follow the locale.
-std::string numberOf(double value) {
+std::string timeText(double value) {
   char digits[32];
   return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
 }
@@ -27,7 +27,7 @@ void writeMeshSeries(const std::vector<SeriesMesh>& series, const std::filesyste
   pugi::xml_node collection = root.append_child("Collection");
   for (const SeriesMesh& mesh : series) {
     pugi::xml_node set = collection.append_child("DataSet");
-    set.append_attribute("timestep") = numberOf(mesh.time).c_str();
+    set.append_attribute("timestep") = timeText(mesh.time).c_str();
     set.append_attribute("file") = mesh.file.c_str();
   }
   if (!document.save_file(file.c_str(), "  ", pugi::format_default, pugi::encoding_utf8))
