@@ -1,7 +1,6 @@
 #include "BoundaryDrive.h"
 
 #include "NodeSums.h"
-#include "sinew/Elasticity/Altitude.h"
 #include "sinew/Mesher/MeshConditions.h"
 
 #include <Eigen/Geometry>
@@ -20,7 +19,7 @@ constexpr double kLeastSlope = 0.5;
 }  // namespace
 
 BoundaryDrive::BoundaryDrive(const TetMesh& mesh, const MeshingBody& part, const SignedDistance& phi)
-    : part_(part), phi_(phi), sizes_(part.boundary.size(), 1e300), at_(part.boundary.size()) {
+    : part_(part), phi_(phi), at_(part.boundary.size()) {
   std::vector<std::int32_t> bodyNode(mesh.nodes.size(), -1), place(part.meshNodes.size(), -1);
   for (std::size_t n = 0; n < part.meshNodes.size(); ++n)
     bodyNode[static_cast<std::size_t>(part.meshNodes[n])] = static_cast<std::int32_t>(n);
@@ -45,13 +44,6 @@ BoundaryDrive::BoundaryDrive(const TetMesh& mesh, const MeshingBody& part, const
   forCorners([&](std::size_t k, std::int32_t a, std::int32_t b) {
     fans_[static_cast<std::size_t>(next[k]++)] = {a, b};
   });
-
-  for (const Tet& tet : part.body.tets) {
-    const double altitude = leastAltitude(part.body.rest, tet);
-    for (const std::int32_t v : tet)
-      if (const std::int32_t k = place[static_cast<std::size_t>(v)]; k >= 0)
-        sizes_[static_cast<std::size_t>(k)] = std::min(sizes_[static_cast<std::size_t>(k)], altitude);
-  }
 }
 
 Vector3d BoundaryDrive::meshNormal(std::size_t k, const NodeVectors& places) const {
@@ -94,7 +86,7 @@ void BoundaryDrive::prescribe(double share, double longest, double dt, NodeConst
   forEachIndex(at_.size(), [&](std::size_t k) {
     const auto node = static_cast<std::size_t>(part_.boundary[k]);
     const Place& at = at_[k];
-    const double most = longest * sizes_[k];
+    const double most = longest * part_.sizes[node];
     const double slope = std::max(at.slope, kLeastSlope);
     constraints.freedom[node] = NodeFreedom::Tangential;
     constraints.normals[node] = at.normal;

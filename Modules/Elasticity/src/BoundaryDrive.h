@@ -40,7 +40,6 @@ class BoundaryDrive {
   const SignedDistance& phi_;
   std::vector<std::int32_t> first_;  ///< boundary node k has fans_[first_[k]] up to fans_[first_[k + 1]]
   std::vector<std::array<std::int32_t, 2>> fans_;  ///< the other two nodes of its triangles, in their order
-  std::vector<double> sizes_;                      ///< least altitude around each boundary node at rest, mm
   std::vector<Place> at_;
 };
 

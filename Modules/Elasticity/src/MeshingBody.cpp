@@ -4,6 +4,7 @@
 #include "sinew/Elasticity/Altitude.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace sinew {
 namespace {
@@ -53,10 +54,14 @@ MeshingBody meshingBody(const TetMesh& mesh, int rings, double crossing, double 
   }
   part.body = elasticBody(moving);
   std::ranges::fill(part.body.masses, 0);
+  part.sizes.assign(moving.nodes.size(), std::numeric_limits<double>::infinity());
   for (std::size_t t = 0; t < moving.tets.size(); ++t) {
-    const double delay = crossing / leastAltitude(moving.nodes, moving.tets[t]);
-    for (const std::int32_t v : moving.tets[t])
-      part.body.masses[static_cast<std::size_t>(v)] += modulus * delay * delay * part.body.volumes[t] / 4;
+    const double size = leastAltitude(moving.nodes, moving.tets[t]), delay = crossing / size;
+    for (const std::int32_t v : moving.tets[t]) {
+      const auto node = static_cast<std::size_t>(v);
+      part.body.masses[node] += modulus * delay * delay * part.body.volumes[t] / 4;
+      part.sizes[node] = std::min(part.sizes[node], size);
+    }
   }
   return part;
 }

@@ -11,6 +11,7 @@ struct MeshingBody {
   ElasticBody body;
   std::vector<std::int32_t> meshNodes;  ///< of the body's nodes
   std::vector<std::uint8_t> moves;      ///< per body node; the others are held
+  std::vector<double> sizes;            ///< least altitude of the tets around each body node at rest, mm
   std::vector<std::int32_t> boundary;   ///< body nodes on the boundary of the mesh
 };
 

@@ -17,6 +17,7 @@ constexpr int kRings = 2;              // of nodes below the boundary that move
 constexpr int kRampSteps = 12;         // of the velocity stage until a step takes all of phi away
 constexpr int kProjections = 6;        // Newton steps of the exact fit, at most
 constexpr double kCgTolerance = 0.05;  // the damping is soft: a first guess is nearly enough
+constexpr double kLongestWay = 0.25;   // of a node in a step, over the least altitude around it
 constexpr double kLeastVolume = 0.05;  // over that at rest: tets below give way
 
 /// The share of kCrossing that a step is. Springs are stiffer than the elements: more of them pull at a node.
@@ -63,10 +64,19 @@ class PhysicsCompressor {
         .tolerance = kCgTolerance,
         .limit = [&](const NodeVectors& places, double time, NodeVectors& velocities) {
           limits_.apply(constraints_, places, time, velocities);
+          slowDown(time, velocities);
         }};
     report_.cgIterations += newmarkStep(part_.body, forces_, constraints_, dt, motion_, newmark).iterations;
     kinetic_ = kineticEnergy(part_.body, motion_.velocities);
     largestKinetic_ = std::max(largestKinetic_, kinetic_);
+  }
+
+  /// Tets that the surface crushes stiffen beyond what the step can follow: their nodes may not run away.
+  void slowDown(double dt, NodeVectors& velocities) const {
+    forEachIndex(velocities.size(), [&](std::size_t n) {
+      const double fastest = kLongestWay * part_.sizes[n] / dt, speed = velocities[n].norm();
+      if (speed > fastest) velocities[n] *= fastest / speed;
+    });
   }
 
   /// The stage of forces.

@@ -15,6 +15,7 @@
 #include "sinew/MeshIO/WriteMesh.h"
 #include "sinew/Mesher/MoveBoundary.h"
 #include "sinew/Pipeline/Memory.h"
+#include "sinew/Pipeline/MethodSettings.h"
 #include "sinew/Pipeline/OutputFile.h"
 #include "sinew/Segmentation/LabelComponents.h"
 
@@ -392,7 +393,17 @@ class TissueRun {
     add(underResolution(report_));
     add(smoothingWarning(report_.smoothing));
     add(volumeWarning());
+    add(methodWarning());
     return text;
+  }
+
+  std::string methodWarning() const {
+    constexpr double kMostMended = 0.3;
+    const double share = static_cast<double>(report_.compression.method.mendedNodes) /
+                         static_cast<double>(std::max<std::int64_t>(report_.quality.nodes, 1));
+    if (share <= kMostMended) return "";
+    return "after " + toString(options_.method) + ", optimization had to mend " + threeDigits(100 * share) +
+           " % of the nodes; a smaller --edge-length or --method hybrid may serve better";
   }
 
   std::string volumeWarning() const {
