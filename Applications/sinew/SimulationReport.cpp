@@ -27,6 +27,7 @@ Json toJson(const SimulatedMesh& mesh, const TrialReport& report) {
   json["stopped_at"] = report.stoppedAt ? Json(*report.stoppedAt) : Json();
   json["verdict"] = report.verdict;
   json["aspect_ratio_at_rest"] = report.frames.front().maxAspectRatio;
+  json["max_aspect_ratio"] = report.largestAspectRatio;
   json["aspect_ratio_growth"] = report.growth;
   json["min_volume_ratio"] = report.leastVolumeRatio;
   json["min_dihedral_deg"] = report.leastDihedralDeg;
@@ -68,10 +69,6 @@ Json toJson(const TrialOptions& options) {
   return json;
 }
 
-double largestAspectRatio(const TrialReport& report) {
-  return std::ranges::max(report.frames, {}, &TrialFrame::maxAspectRatio).maxAspectRatio;
-}
-
 TextTable comparison(const Simulation& simulation) {
   TextTable table({{"mesh, worst first", Align::Left},
                    {"tets"},
@@ -88,7 +85,7 @@ TextTable comparison(const Simulation& simulation) {
     const TextTable::Cell end{report.completed ? "completed" : "stopped early",
                               report.completed ? Tone::Good : Tone::Bad};
     table.add({printable(mesh.name), grouped(mesh.tets), fixed(report.frames.front().maxAspectRatio, 2),
-               fixed(largestAspectRatio(report), 2), signedFixed(100 * report.growth, 1),
+               fixed(report.largestAspectRatio, 2), signedFixed(100 * report.growth, 1),
                fixed(report.leastVolumeRatio, 3), fixed(report.leastDihedralDeg, 1), fixed(mesh.seconds, 1),
                end});
   }

@@ -59,7 +59,7 @@ std::vector<std::size_t> worstToBest(const std::vector<NamedTrial>& trials) {
     const TrialReport &x = trials[a].report, &y = trials[b].report;
     if (x.completed != y.completed) return !x.completed;
     if (!x.completed && x.frames.size() != y.frames.size()) return x.frames.size() < y.frames.size();
-    return x.growth > y.growth;
+    return x.largestAspectRatio > y.largestAspectRatio;
   };
   std::ranges::stable_sort(order, worse);
   return order;

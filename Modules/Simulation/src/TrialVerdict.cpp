@@ -40,7 +40,7 @@ std::string stopText(const TrialRow& row, const TrialReport& report) {
 
 std::string growthText(const TrialReport& report) {
   const double start = report.frames.front().maxAspectRatio;
-  return "worst aspect ratio " + fixedText(start, 2) + " -> " + fixedText(start * (1 + report.growth), 2) +
+  return "worst aspect ratio " + fixedText(start, 2) + " -> " + fixedText(report.largestAspectRatio, 2) +
          " (" + (report.growth < 0 ? "" : "+") + fixedText(100 * report.growth, 0) + " %), least J " +
          fixedText(report.leastVolumeRatio, 2) + ", smallest dihedral " +
          fixedText(report.leastDihedralDeg, 1) + " deg";
@@ -59,20 +59,19 @@ double usualAmount(Trial trial) { return row(trial).amount; }
 
 void judge(const TrialOptions& options, TrialReport& report) {
   const TrialFrame& first = report.frames.front();
-  double worst = 0;
   report.leastVolumeRatio = first.minVolumeRatio;
   report.leastDihedralDeg = first.minDihedralDeg;
   report.largestDihedralDeg = first.maxDihedralDeg;
   for (const TrialFrame& frame : report.frames) {
-    if (frame.maxAspectRatio > worst) {
-      worst = frame.maxAspectRatio;
+    if (frame.maxAspectRatio > report.largestAspectRatio) {
+      report.largestAspectRatio = frame.maxAspectRatio;
       report.worst = frame.worst;
     }
     report.leastVolumeRatio = std::min(report.leastVolumeRatio, frame.minVolumeRatio);
     report.leastDihedralDeg = std::min(report.leastDihedralDeg, frame.minDihedralDeg);
     report.largestDihedralDeg = std::max(report.largestDihedralDeg, frame.maxDihedralDeg);
   }
-  report.growth = worst / first.maxAspectRatio - 1;
+  report.growth = report.largestAspectRatio / first.maxAspectRatio - 1;
   const TrialRow& trial = row(options.trial);
   report.verdict = (report.completed ? text(trial.noun) + " completes" : stopText(trial, report)) +
                    (report.completed ? ": " : "; ") + growthText(report) + looseText(report);

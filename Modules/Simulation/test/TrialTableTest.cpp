@@ -6,17 +6,18 @@
 namespace sinew {
 namespace {
 
-NamedTrial trial(const std::string& name, bool completed, std::size_t frames, double growth) {
+NamedTrial trial(const std::string& name, bool completed, std::size_t frames,
+                 double largestAspectRatio = 1) {
   NamedTrial trial{name, {}};
   trial.report.completed = completed;
   trial.report.frames.resize(frames);
-  trial.report.growth = growth;
+  trial.report.largestAspectRatio = largestAspectRatio;
   return trial;
 }
 
 TEST(TrialTable, HasALineForEachFrame) {
   const test::CommaLocale commas;
-  NamedTrial one = trial("a \"b\",c", true, 1, 0);
+  NamedTrial one = trial("a \"b\",c", true, 1);
   one.report.frames[0] = {.time = 0.05,
                           .amount = 0.5,
                           .maxAspectRatio = 3.25,
@@ -33,7 +34,7 @@ TEST(TrialTable, HasALineForEachFrame) {
                           .worst = {},
                           .flattest = {}};
   EXPECT_EQ(
-      trialTable({one, trial("d", true, 1, 0)}),
+      trialTable({one, trial("d", true, 1)}),
       "mesh,time_s,amount,max_aspect_ratio,min_volume_ratio,min_dihedral_deg,max_dihedral_deg,energy_uJ,"
       "volume_mm3,force_mN,residual,newton_steps,converged\n"
       "\"a \"\"b\"\",c\",0.05,0.5,3.25,0.9,17,146.5,-1234.5,1e+06,12.5,1e-05,4,1\n"
@@ -41,9 +42,16 @@ TEST(TrialTable, HasALineForEachFrame) {
 }
 
 TEST(TrialTable, TrialsThatStoppedAreWorst) {
-  EXPECT_EQ(worstToBest({trial("a", true, 9, 0.2), trial("b", true, 9, 0.7), trial("c", false, 5, 0.1),
-                         trial("d", false, 3, 0.05), trial("e", true, 9, 0.2)}),
+  EXPECT_EQ(worstToBest({trial("a", true, 9, 4.2), trial("b", true, 9, 4.7), trial("c", false, 5, 4.1),
+                         trial("d", false, 3, 4), trial("e", true, 9, 4.2)}),
             (std::vector<std::size_t>{3, 2, 1, 0, 4}));
+}
+
+TEST(TrialTable, RanksByTheWorstTetNotByItsGrowth) {
+  NamedTrial good = trial("from 2 to 4", true, 9, 4), bad = trial("from 4 to 5", true, 9, 5);
+  good.report.growth = 1;
+  bad.report.growth = 0.25;
+  EXPECT_EQ(worstToBest({good, bad}), (std::vector<std::size_t>{1, 0}));
 }
 
 }  // namespace

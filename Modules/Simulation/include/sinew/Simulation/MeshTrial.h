@@ -87,7 +87,8 @@ struct TrialReport {
   std::vector<TrialFrame> frames;  ///< up to where the trial stopped
   bool completed = false;          ///< every frame is in balance
   std::string verdict;             ///< one line
-  double growth = 0;               ///< max over time of maxAspectRatio over that of the first frame, - 1
+  double largestAspectRatio = 0;   ///< of all frames and tets
+  double growth = 0;               ///< of it over that of the first frame, - 1
   double leastVolumeRatio = 1;     ///< of all frames and tets
   double leastDihedralDeg = 0, largestDihedralDeg = 0;  ///< of all frames and tets
   TrialSpot worst;                                      ///< of the largest aspect ratio of all frames

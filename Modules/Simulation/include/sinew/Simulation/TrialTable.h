@@ -18,7 +18,7 @@ struct NamedTrial {
 std::string trialTable(const std::vector<NamedTrial>& trials);
 
 /// How trials are ranked: those that stopped come before those that did not, the earlier first; then the one
-/// whose largest aspect ratio grew more. @return indices, worst to best
+/// with the larger worst aspect ratio of any tet at any time. @return indices, worst to best
 std::vector<std::size_t> worstToBest(const std::vector<NamedTrial>& trials);
 
 }  // namespace sinew
