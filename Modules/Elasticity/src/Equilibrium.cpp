@@ -120,6 +120,7 @@ EquilibriumReport findEquilibrium(const ElasticBody& body, const Material& mater
     report.residual = report.largestForce > 0 ? largest / report.largestForce : 0;
     report.converged = report.residual <= options.tolerance;
     if (report.converged || report.steps == options.steps) break;
+    if (options.onStep) options.onStep();
     const double forcing = forcingTerm(report.residual, options.tolerance);
     const NodeVectors direction =
         system.direction(problem, places, residual, forcing, options, report.cgIterations);

@@ -57,7 +57,7 @@ double heightOf(int frame, int frames) { return 1 - std::abs(2. * frame / frames
 
 TrialReport runTrial(const TetMesh& mesh, const TrialSetup& setup, const TrialOptions& options,
                      const OnTrialFrame& onFrame) {
-  checkOptions(options);
+  checkTrialOptions(options);
   checkSetup(mesh, setup, options);
   const ElasticBody body = elasticBody(mesh);
   TrialLoad load(mesh, body, setup, options);

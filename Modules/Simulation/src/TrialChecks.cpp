@@ -1,5 +1,6 @@
 #include "TrialChecks.h"
 
+#include "Numbers.h"
 #include "TetMiddle.h"
 #include "TrialText.h"
 
@@ -15,23 +16,7 @@ namespace {
 using Eigen::Vector3d;
 
 void require(bool condition, const std::string& what) {
-  if (!condition) throw std::invalid_argument("runTrial: " + what);
-}
-
-void checkTets(const TetMesh& mesh) {
-  std::size_t bad = 0, first = 0;
-  for (std::size_t t = mesh.tets.size(); t-- > 0;) {
-    const auto at = [&](int c) -> const Vector3d& {
-      return mesh.nodes[static_cast<std::size_t>(mesh.tets[t][static_cast<std::size_t>(c)])];
-    };
-    if ((at(1) - at(0)).cross(at(2) - at(0)).dot(at(3) - at(0)) > 0) continue;
-    ++bad;
-    first = t;
-  }
-  require(!mesh.tets.empty(), "the mesh has no tets");
-  if (bad > 0)
-    require(false, std::to_string(bad) + " tets are flat or inverted at rest, the first is tet " +
-                       std::to_string(first) + " near " + placeText(tetMiddle(mesh.nodes, mesh.tets[first])));
+  if (!condition) throw std::invalid_argument(what);
 }
 
 /// 0 for free nodes, 1 at the origin, 2 at the insertion.
@@ -72,18 +57,23 @@ void checkFibres(const TetMesh& mesh, const TrialSetup& setup) {
   };
   count(setup.fibres.size(), "fibres");
   if (!setup.tendons.empty()) count(setup.tendons.size(), "shares of tendon");
+  const auto spot = [&](std::size_t t) {
+    return "tet " + std::to_string(t) + " near " + placeText(tetMiddle(mesh.nodes, mesh.tets[t]));
+  };
   constexpr double kUnit = 1e-6;
   for (std::size_t t = 0; t < setup.fibres.size(); ++t)
-    require(std::abs(setup.fibres[t].norm() - 1) < kUnit, "the fibre of tet " + std::to_string(t) + " near " +
-                                                              placeText(tetMiddle(mesh.nodes, mesh.tets[t])) +
-                                                              " is no unit vector");
+    require(std::abs(setup.fibres[t].norm() - 1) < kUnit, "the fibre of " + spot(t) + " is no unit vector");
+  for (std::size_t t = 0; t < setup.tendons.size(); ++t)
+    require(
+        setup.tendons[t] >= 0 && setup.tendons[t] <= 1,
+        "the share of tendon of " + spot(t) + " is " + toText(setup.tendons[t]) + ", but must be in [0, 1]");
 }
 
 }  // namespace
 
-void checkOptions(const TrialOptions& options) {
+void checkTrialOptions(const TrialOptions& options) {
   const double amount = options.amount.value_or(usualAmount(options.trial));
-  const std::string given = "the amount is " + fixedText(amount, 3) + ", but must be ";
+  const std::string given = "the amount is " + toText(amount) + ", but must be ";
   switch (options.trial) {
     case Trial::Contract:
       require(amount > 0 && amount <= 1, given + "an activation in (0, 1]");
@@ -107,12 +97,33 @@ void checkOptions(const TrialOptions& options) {
   require(options.halvings >= 0, "the halvings must not be negative");
   require(options.tissue.shear > 0 && options.tissue.bulk > 2. / 3 * options.tissue.shear,
           "the tissue must have a positive shear modulus, and a bulk modulus above two thirds of it");
+  for (const double modulus :
+       {options.muscle.shear, options.muscle.bulk, options.muscle.tension, options.muscle.tendonShear,
+        options.muscle.tendonBulk, options.muscle.tendonTension})
+    require(modulus > 0 && std::isfinite(modulus),
+            "every modulus and tension of the muscle must be positive");
   for (const auto& direction : {options.axis, options.push})
     require(!direction || (direction->allFinite() && direction->norm() > 0), "a direction must not be zero");
 }
 
+void checkTetsAtRest(const TetMesh& mesh) {
+  require(!mesh.tets.empty(), "the mesh has no tets");
+  std::size_t bad = 0, first = 0;
+  for (std::size_t t = mesh.tets.size(); t-- > 0;) {
+    const auto at = [&](int c) -> const Vector3d& {
+      return mesh.nodes[static_cast<std::size_t>(mesh.tets[t][static_cast<std::size_t>(c)])];
+    };
+    if ((at(1) - at(0)).cross(at(2) - at(0)).dot(at(3) - at(0)) > 0) continue;
+    ++bad;
+    first = t;
+  }
+  if (bad > 0)
+    require(false, std::to_string(bad) + " tets are flat or inverted at rest, the first is tet " +
+                       std::to_string(first) + " near " + placeText(tetMiddle(mesh.nodes, mesh.tets[first])));
+}
+
 void checkSetup(const TetMesh& mesh, const TrialSetup& setup, const TrialOptions& options) {
-  checkTets(mesh);
+  checkTetsAtRest(mesh);
   checkAttachments(mesh, setup.attachments);
   if (options.trial == Trial::Contract) checkFibres(mesh, setup);
 }

@@ -4,9 +4,6 @@
 
 namespace sinew {
 
-/// @throws std::invalid_argument naming the option and what is allowed
-void checkOptions(const TrialOptions& options);
-
 /// @throws std::invalid_argument naming the tet, the node or the piece, see runTrial()
 void checkSetup(const TetMesh& mesh, const TrialSetup& setup, const TrialOptions& options);
 

@@ -63,8 +63,8 @@ void TrialLoad::holdLoosePieces(const ElasticBody& body) {
   loose_ = findLoosePieces(body, constraints_);
   if (2 * loose_.tets > std::ssize(body.tets))
     throw std::invalid_argument(
-        "runTrial: nothing holds " + std::to_string(loose_.tets) + " of the " +
-        std::to_string(body.tets.size()) + " tets, the first near " +
+        "nothing holds " + std::to_string(loose_.tets) + " of the " + std::to_string(body.tets.size()) +
+        " tets, the first near " +
         placeText(tetMiddle(body.rest, body.tets[static_cast<std::size_t>(loose_.firstTet)])) +
         "; let the ends be on the largest piece of the mesh");
   hold(loose_.nodes, 0, share_);
@@ -73,7 +73,7 @@ void TrialLoad::holdLoosePieces(const ElasticBody& body) {
 void TrialLoad::moveEnds(const ElasticBody& body, const Attachments& ends, const TrialOptions& options) {
   if (!areConnected(body, ends.origin, ends.insertion))
     throw std::invalid_argument(
-        "runTrial: no piece of the mesh reaches from the origin to the insertion; let both be on its largest "
+        "no piece of the mesh reaches from the origin to the insertion; let both be on its largest "
         "piece");
   std::vector<double> shares(body.nodeCount(), kWanted);
   hold(ends.origin, 0, shares);

@@ -4,18 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace sinew {
 namespace {
 
 constexpr int kNewtonSteps = 40;  // more say that there is no balance nearby
 
-/// That a tet of the mean size gives a node at a shear strain of 1e-4: below it, forces are about rounding.
-double leastForceOf(const ElasticBody& body, double shear) {
+/// That the largest tet gives a node at a strain of 1e-4 against the stiffest modulus. What is then out of
+/// balance at most, a tolerance of it, lies above what the rounding of energies hides from the line search.
+double leastForceOf(const ElasticBody& body, const TrialOptions& options) {
   constexpr double kLeastStrain = 1e-4;
-  const double volume = std::accumulate(body.volumes.begin(), body.volumes.end(), 0.);
-  return kLeastStrain * shear * std::pow(volume / static_cast<double>(body.tets.size()), 2. / 3);
+  const double modulus = options.trial == Trial::Contract
+                             ? std::max(options.muscle.shear, options.muscle.bulk)
+                             : std::max(options.tissue.shear, options.tissue.bulk);
+  return kLeastStrain * modulus * std::pow(std::ranges::max(body.volumes), 2. / 3);
 }
 
 }  // namespace
@@ -23,11 +25,9 @@ double leastForceOf(const ElasticBody& body, double shear) {
 TrialMarch::TrialMarch(const ElasticBody& body, TrialLoad& load, const TrialOptions& options)
     : body_(body),
       load_(load),
-      tolerance_(options.tolerance),
-      halvings_(options.halvings),
+      options_(options),
       places_(body.rest),
-      largestForce_(leastForceOf(
-          body, options.trial == Trial::Contract ? options.muscle.shear : options.tissue.shear)) {}
+      largestForce_(leastForceOf(body, options)) {}
 
 bool TrialMarch::advance(double amount, int halvings) {
   if (step(amount)) return true;
@@ -55,9 +55,11 @@ bool TrialMarch::step(double amount) {
   NodeVectors next = guess(amount);
   if (!(leastVolumeRatio(body_, next) > 0)) return false;
   load_.activate(amount);
-  const EquilibriumReport report =
-      findEquilibrium(body_, load_.material(), load_.constraints(), {}, next,
-                      {.tolerance = tolerance_, .leastForce = largestForce_, .steps = kNewtonSteps});
+  const EquilibriumReport report = findEquilibrium(body_, load_.material(), load_.constraints(), {}, next,
+                                                   {.tolerance = options_.tolerance,
+                                                    .leastForce = largestForce_,
+                                                    .steps = kNewtonSteps,
+                                                    .onStep = options_.onStep});
   newtonSteps_ += report.steps;
   cgIterations_ += report.cgIterations;
   if (!report.converged) {

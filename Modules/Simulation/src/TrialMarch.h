@@ -16,7 +16,7 @@ class TrialMarch {
 
   /// Goes to an amount, by the way of amounts between where one step finds no balance.
   /// @return whether it got there; else amount() and places() are the last balance
-  bool advance(double amount) { return advance(amount, halvings_); }
+  bool advance(double amount) { return advance(amount, options_.halvings); }
 
   double amount() const { return amount_; }
   const NodeVectors& places() const { return places_; }
@@ -38,8 +38,7 @@ class TrialMarch {
 
   const ElasticBody& body_;
   TrialLoad& load_;
-  double tolerance_;
-  int halvings_;
+  const TrialOptions& options_;
   double amount_ = 0;
   NodeVectors places_;
   std::optional<Balance> before_;

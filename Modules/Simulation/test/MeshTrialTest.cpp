@@ -291,6 +291,8 @@ TEST(MeshTrial, RefusesMeshesThatCannotBeHeld) {
   says(with([](TrialSetup& s) { s.fibres.pop_back(); }), "there are 17 fibres for 18 tets");
   says(with([](TrialSetup& s) { s.fibres[3] *= 2; }), "the fibre of tet 3 near (");
   says(with([](TrialSetup& s) { s.tendons = {0}; }), "there are 1 shares of tendon for 18 tets");
+  says(with([](TrialSetup& s) { s.tendons = std::vector<double>(18, 1.5); }),
+       "the share of tendon of tet 0 near (");
 
   TetMesh inverted = mesh;
   std::swap(inverted.tets[4][0], inverted.tets[4][1]);
@@ -304,6 +306,27 @@ TEST(MeshTrial, RefusesMeshesThatCannotBeHeld) {
   says(refusal(pieces, forPieces), "nothing holds 24 of the 42 tets, the first near (9.");
   forPieces.attachments.insertion = {20};  // of the other bar
   says(refusal(pieces, forPieces), "no piece of the mesh reaches from the origin to the insertion");
+}
+
+TEST(MeshTrial, TinyAmountsFindTheirBalance) {
+  const TetMesh mesh = test::spindleMesh({2, 2, 6}, 1);
+  for (const Trial trial : kTrials)
+    for (const double share : {1e-12, 1e-9, 1e-7, 1e-5, 1e-3}) {
+      const TrialOptions options{.trial = trial, .amount = share * usualAmount(trial), .frames = 2};
+      EXPECT_TRUE(runTrial(mesh, setupOfBar(mesh), options).completed) << trialName(trial) << ' ' << share;
+    }
+}
+
+TEST(MeshTrial, AStepCanEndATrial) {
+  const TetMesh mesh = test::spindleMesh({2, 2, 6}, 1);
+  int steps = 0, frames = 0;
+  const TrialOptions options{.trial = Trial::Twist, .frames = 2, .onStep = [&] {
+                               if (++steps == 2) throw std::runtime_error("stop");
+                             }};
+  EXPECT_THROW(
+      runTrial(mesh, setupOfBar(mesh), options, [&](const TrialFrame&, const NodeVectors&) { ++frames; }),
+      std::runtime_error);
+  EXPECT_EQ(frames, 1) << "within the way to the second";
 }
 
 TEST(MeshTrial, SmallPiecesThatNothingHoldsStandStill) {
@@ -331,7 +354,8 @@ TEST(MeshTrial, RefusesOptionsOutOfRange) {
   for (const TrialOptions& options :
        {TrialOptions{.amount = 1.1}, TrialOptions{.amount = 0}, TrialOptions{.duration = 0},
         TrialOptions{.frames = 3}, TrialOptions{.frames = 0}, TrialOptions{.tolerance = 0},
-        TrialOptions{.halvings = -1}, TrialOptions{.trial = Trial::Compress, .amount = 1},
+        TrialOptions{.halvings = -1}, TrialOptions{.muscle = {.bulk = -1}},
+        TrialOptions{.trial = Trial::Compress, .amount = 1},
         TrialOptions{.trial = Trial::Stretch, .amount = -0.1},
         TrialOptions{.trial = Trial::Twist, .amount = 0},
         TrialOptions{.trial = Trial::Twist, .tissue = {.bulk = 1}},

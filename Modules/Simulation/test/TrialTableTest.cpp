@@ -6,8 +6,7 @@
 namespace sinew {
 namespace {
 
-NamedTrial trial(const std::string& name, bool completed, std::size_t frames,
-                 double largestAspectRatio = 1) {
+NamedTrial trial(const std::string& name, bool completed, std::size_t frames, double largestAspectRatio = 1) {
   NamedTrial trial{name, {}};
   trial.report.completed = completed;
   trial.report.frames.resize(frames);

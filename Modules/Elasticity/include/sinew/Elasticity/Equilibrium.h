@@ -3,6 +3,8 @@
 #include "sinew/Elasticity/ElasticForces.h"
 #include "sinew/Elasticity/NodeConstraints.h"
 
+#include <functional>
+
 namespace sinew {
 
 struct EquilibriumOptions {
@@ -11,6 +13,7 @@ struct EquilibriumOptions {
   int steps = 100;           ///< Newton steps at most
   int cgIterations = 2000;   ///< per Newton step at most
   bool keepPositive = true;  ///< no step may take a tet to J <= 0
+  std::function<void()> onStep = {};  ///< called before each Newton step; what it throws comes through
 };
 
 struct EquilibriumReport {

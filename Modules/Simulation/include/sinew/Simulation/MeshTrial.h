@@ -49,6 +49,7 @@ struct TrialOptions {
   std::optional<Eigen::Vector3d> push = {};  ///< Indent: where to; the thinnest way through unless given
   double tolerance = 1e-4;  ///< of a frame's balance of forces, over the largest force of a tet on a node
   int halvings = 5;         ///< of a step between frames that finds no balance, before the trial stops
+  std::function<void()> onStep = {};  ///< called before each Newton step; what it throws ends the trial
 };
 
 struct TrialSetup {
@@ -84,17 +85,24 @@ struct TrialFrame {
 };
 
 struct TrialReport {
-  std::vector<TrialFrame> frames;  ///< up to where the trial stopped
-  bool completed = false;          ///< every frame is in balance
-  std::string verdict;             ///< one line
-  double largestAspectRatio = 0;   ///< of all frames and tets
-  double growth = 0;               ///< of it over that of the first frame, - 1
-  double leastVolumeRatio = 1;     ///< of all frames and tets
+  std::vector<TrialFrame> frames;                       ///< up to where the trial stopped
+  bool completed = false;                               ///< every frame is in balance
+  std::string verdict;                                  ///< one line
+  double largestAspectRatio = 0;                        ///< of all frames and tets
+  double growth = 0;                                    ///< of it over that of the first frame, - 1
+  double leastVolumeRatio = 1;                          ///< of all frames and tets
   double leastDihedralDeg = 0, largestDihedralDeg = 0;  ///< of all frames and tets
   TrialSpot worst;                                      ///< of the largest aspect ratio of all frames
   std::int64_t loosePieces = 0, looseTets = 0;          ///< of the mesh that nothing holds: they stood still
   std::optional<double> stoppedAt;  ///< the last amount in balance, of a trial that stopped
 };
+
+/// @throws std::invalid_argument saying what is out of range
+void checkTrialOptions(const TrialOptions& options);
+
+/// @throws std::invalid_argument when there is none, or with the number of tets that are flat or inverted, and
+/// where the first is
+void checkTetsAtRest(const TetMesh& mesh);
 
 using OnTrialFrame = std::function<void(const TrialFrame&, const NodeVectors& places)>;
 
