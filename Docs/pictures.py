@@ -108,7 +108,7 @@ SCENES = {
         "view": ((0.6, -1, 0.15), (1, 0.6, 0)),
         "hollows": 2.5,
         "parts": {"humerus": []},
-        "values": {"mesh": "contracted", "array": "aspect_ratio", "title": "aspect ratio", "range": (1.2, 4.2)},
+        "values": {"mesh": "contracted", "array": "aspect_ratio", "title": "aspect ratio", "range": (1.2, 4.8)},
     },
     "frog": {
         "meshes": "frog",

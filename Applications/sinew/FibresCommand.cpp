@@ -62,14 +62,13 @@ void putArrays(TissueMesh& mesh, const TissueFibres& fibres, const Attachments& 
 }
 
 int fibres(const CommandLine& line, const FibresCommand& command) {
+  checkFibreSettings(command.settings);
   checkMeshFiles(command.files, command.output);
   checkOutput(command, line.common.force);
   TissueMeshInput input = readTissueMesh(command.mesh, command.settings.tissue);
   const Attachments attachments = attachmentsOf(input, command.settings);
   const TissueFibres made = fibresOf(input, attachments, command.settings, OwnFibres::Ignore);
-  if (made.missing > 0)
-    line.warn(command.mesh + ": " + grouped(made.missing) +
-              " tets have no fibre: they hang together with neither origin nor insertion");
+  if (const std::string warning = made.warning(); !warning.empty()) line.warn(command.mesh + ": " + warning);
   putArrays(input.tissue, made, attachments);
 
   const OutputFolder folder(std::filesystem::absolute(command.output).parent_path());
@@ -84,6 +83,7 @@ int fibres(const CommandLine& line, const FibresCommand& command) {
   json["source"] = made.source;
   json["tets"] = made.directions.size();
   json["tets_without_fibre"] = made.missing;
+  json["tets_outside_spline"] = made.outside;
   json["origin_nodes"] = attachments.origin.size();
   json["insertion_nodes"] = attachments.insertion.size();
   line.writeJson(document(json));

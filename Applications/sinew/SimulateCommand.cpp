@@ -20,8 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* kTrialReport = "report.json";
-constexpr int kMostFrames = 9999;
+constexpr int kMostFrames = 9998;
 
 double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -88,7 +87,37 @@ void takeTrial(const Choices& choices, TrialOptions& options) {
   const std::string& text = *choices.trials[index];
   if (text.empty()) return;
   options.amount = amountIn(text);
-  if (!(*options.amount > 0)) throw CLI::ValidationError(row.flag, "'" + text + "' is no amount above 0");
+  try {
+    checkTrialOptions({.trial = options.trial, .amount = options.amount});
+  } catch (const std::invalid_argument& error) {
+    throw CLI::ValidationError(row.flag, error.what());
+  }
+}
+
+/// Refuses what only a muscle that contracts listens to.
+void checkEffects(const CLI::App& app, Trial trial) {
+  if (trial == Trial::Contract) return;
+  const TrialOption& row = *std::ranges::find(kTrialOptions, trial, &TrialOption::trial);
+  for (const char* flag :
+       {"--tendon", "--spline", "--tension", "--tendon-shear", "--tendon-bulk", "--tendon-tension"})
+    if (app.get_option(flag)->count() > 0)
+      throw CLI::ValidationError(flag, std::string("has no effect on ") + row.flag);
+}
+
+void checkFrames(int frames) {
+  if (frames % 2 != 0 || frames > kMostFrames)
+    throw CLI::ValidationError("--frames", std::to_string(frames) + "; it must be an even number up to " +
+                                               std::to_string(kMostFrames));
+}
+
+/// What the rows of options cannot tell.
+void checkTrial(const TrialOptions& options) {
+  checkFrames(options.frames);
+  try {
+    checkTrialOptions(options);
+  } catch (const std::invalid_argument& error) {
+    throw CLI::ValidationError(error.what());
+  }
 }
 
 void takeMaterial(const Choices& choices, TrialOptions& options) {
@@ -112,7 +141,7 @@ std::vector<Option> trialOptions(SimulateCommand& command, Choices& choices) {
        .least = 1e-6},
       {.flags = "--frames",
        .target = &trial.frames,
-       .help = "states after the first, evenly in time",
+       .help = "states after the first, evenly in time; an even number",
        .least = 2},
       {"--no-series", &command.noSeries, "write no mesh for each frame"},
       pressure("--shear", &choices.shear, "shear modulus of the muscle, across its fibres, kPa; default 10"),
@@ -125,40 +154,13 @@ std::vector<Option> trialOptions(SimulateCommand& command, Choices& choices) {
   };
 }
 
-/// Of the files in the folder.
-struct TrialOutputs {
-  std::string table, plot;
-  std::vector<std::string> series;  ///< how those of each mesh begin; empty: none
-
-  std::vector<std::string> all(int frames) const {
-    std::vector<std::string> names{kTrialReport, table, plot};
-    for (const std::string& stem : series) {
-      names.push_back(TrialSeries::listName(stem));
-      for (int frame = 0; frame <= frames; ++frame)
-        names.push_back(TrialSeries::frameName(stem, static_cast<std::size_t>(frame)));
-    }
-    return names;
-  }
-};
-
-TrialOutputs trialOutputs(const SimulateCommand& command, const std::vector<std::string>& meshNames) {
-  const std::string trial(trialName(command.trial.trial));
-  TrialOutputs names{trial + ".csv", trial + ".svg", {}};
-  if (command.noSeries) return names;
-  if (meshNames.size() == 1)
-    names.series = {trial};
-  else
-    for (const std::string& stem : stemsOf(meshNames)) names.series.push_back(stem + "-" + trial);
-  return names;
-}
-
 /// One mesh of a run.
 class MeshRun {
  public:
   /// @param done, all  meshes before this one, and of the whole run
-  MeshRun(const SimulateCommand& command, SimulatedMesh& mesh, ProgressDisplay& display, std::size_t done,
-          std::size_t all)
-      : command_(command), mesh_(mesh), display_(display), done_(done), all_(all) {}
+  MeshRun(const CommandLine& line, const SimulateCommand& command, SimulatedMesh& mesh,
+          ProgressDisplay& display, std::size_t done, std::size_t all)
+      : line_(line), command_(command), mesh_(mesh), display_(display), done_(done), all_(all) {}
 
   TrialReport run(const fs::path& folder, const std::string& stem) {
     const Clock::time_point start = Clock::now();
@@ -167,12 +169,23 @@ class MeshRun {
     const TrialSetup setup = setUp(input);
     const TetMesh rest = input.tissue.mesh;
     std::optional<TrialSeries> series;
-    if (!stem.empty()) series.emplace(folder, stem, std::move(input.tissue), setup.fibres);
+    if (!command_.noSeries) series.emplace(folder, stem, std::move(input.tissue), setup.fibres);
+    TrialOptions options = command_.trial;
+    const std::string stage(trialName(options.trial));
+    double frames = 0, steps = 0;  // done; and since the last of them
+    options.onStep = [&] {
+      checkInterrupt();
+      constexpr double kUsualSteps = 4;  // of a frame; its bar creeps on beyond them
+      show(stage, std::min(1., (frames - 1 + steps / (steps + kUsualSteps)) / options.frames));
+      ++steps;
+    };
     const TrialReport report =
-        runTrial(rest, setup, command_.trial, [&](const TrialFrame& frame, const NodeVectors& places) {
+        runTrial(rest, setup, options, [&](const TrialFrame& frame, const NodeVectors& places) {
           checkInterrupt();
-          show(std::string(trialName(command_.trial.trial)), frame.time / command_.trial.duration);
+          show(stage, frame.time / options.duration);
           if (series) series->add(frame.time, places);
+          ++frames;
+          steps = 0;
         });
     if (series) series->finish();
     mesh_.seconds = secondsSince(start);
@@ -186,6 +199,8 @@ class MeshRun {
       show("fibres", 0);
       TissueFibres fibres = fibresOf(input, setup.attachments, command_.fibres, OwnFibres::Take);
       mesh_.fibres = fibres.source;
+      mesh_.tetsOutsideSpline = fibres.outside;
+      if (fibres.outside > 0 && !fibres.warning().empty()) line_.warn(mesh_.file + ": " + fibres.warning());
       setup.fibres = std::move(fibres.directions);
       if (fibres.missing > 0) fillLoosePieces(setup.fibres, longAxis(input.tissue.mesh));
       setup.tendons = std::move(fibres.tendons);
@@ -208,17 +223,12 @@ class MeshRun {
     display_.show(mesh_.name, stage, (static_cast<double>(done_) + share) / static_cast<double>(all_));
   }
 
+  const CommandLine& line_;
   const SimulateCommand& command_;
   SimulatedMesh& mesh_;
   ProgressDisplay& display_;
   std::size_t done_, all_;
 };
-
-/// `runTrial: what` as `what`: its name says nothing to people.
-std::string withoutFunction(const std::string& message) {
-  constexpr std::string_view kName = "runTrial: ";
-  return message.starts_with(kName) ? message.substr(kName.size()) : message;
-}
 
 Simulation runTrials(const CommandLine& line, const SimulateCommand& command, const TrialOutputs& names,
                      const std::vector<std::string>& meshNames, const fs::path& folder) {
@@ -228,23 +238,17 @@ Simulation runTrials(const CommandLine& line, const SimulateCommand& command, co
   ProgressDisplay display(line.common);
   for (std::size_t i = 0; i < command.meshes.size(); ++i) {
     SimulatedMesh mesh{.file = command.meshes[i], .name = meshNames[i], .series = {}, .tissue = {}};
-    const std::string stem = names.series.empty() ? "" : names.series[i];
-    if (!stem.empty()) mesh.series = TrialSeries::listName(stem);
+    const std::string& stem = names.stems[i];
+    if (!command.noSeries) mesh.series = TrialSeries::listName(stem);
     try {
-      TrialReport report = MeshRun(command, mesh, display, i, command.meshes.size()).run(folder, stem);
+      TrialReport report = MeshRun(line, command, mesh, display, i, command.meshes.size()).run(folder, stem);
       simulation.trials.push_back({mesh.name, std::move(report)});
     } catch (const std::invalid_argument& error) {
-      throw std::runtime_error(mesh.file + ": " + withoutFunction(error.what()));
+      throw std::runtime_error(mesh.file + ": " + error.what());
     }
     simulation.meshes.push_back(std::move(mesh));
   }
   return simulation;
-}
-
-/// Files that this run has not written: those of an older one are to go.
-std::vector<std::string> missingIn(const fs::path& folder, std::vector<std::string> names) {
-  std::erase_if(names, [&](const std::string& name) { return fs::exists(folder / name); });
-  return names;
 }
 
 std::string plotTitle(const SimulateCommand& command, const Simulation& simulation) {
@@ -253,8 +257,8 @@ std::string plotTitle(const SimulateCommand& command, const Simulation& simulati
   return simulation.meshes.size() == 1 ? title + " of " + simulation.meshes.front().name : title;
 }
 
-int simulate(const CommandLine& line, SimulateCommand& command, const Choices& choices) {
-  const Clock::time_point start = Clock::now();
+/// Completes the command by the choices.
+void take(const CommandLine& line, const Choices& choices, SimulateCommand& command) {
   takeTrial(choices, command.trial);
   command.meshes.insert(command.meshes.end(), choices.meshes.begin(), choices.meshes.end());
   takeMaterial(choices, command.trial);
@@ -262,12 +266,18 @@ int simulate(const CommandLine& line, SimulateCommand& command, const Choices& c
   if (command.meshes.size() > 1 && !command.compare)
     throw CLI::ValidationError(
         "MESH", std::to_string(command.meshes.size()) + " meshes; add --compare to compare them");
-  if (command.trial.frames > kMostFrames)
-    throw CLI::ValidationError(
-        "--frames", std::to_string(command.trial.frames) + "; at most " + std::to_string(kMostFrames));
+  checkEffects(line.app, command.trial.trial);
+  checkTrial(command.trial);
+  checkFibreSettings(command.fibres);
+}
+
+int simulate(const CommandLine& line, SimulateCommand& command, const Choices& choices) {
+  const Clock::time_point start = Clock::now();
+  take(line, choices, command);
   const std::vector<std::string> meshNames = shortNames(command.meshes);
   const TrialOutputs names = trialOutputs(command, meshNames);
-  checkOutputFolder(command.folder, names.all(command.trial.frames), line.common.force);
+  const std::vector<std::string> older = names.olderIn(command.folder);
+  checkOutputFolder(command.folder, older, line.common.force);
 
   const InterruptScope interruptible;
   StagedFolder folder(command.folder);
@@ -277,8 +287,8 @@ int simulate(const CommandLine& line, SimulateCommand& command, const Choices& c
                 trialPlot(simulation.trials, command.trial.trial, plotTitle(command, simulation)));
   simulation.seconds = secondsSince(start);
   const std::string report = toJson(command, simulation);
-  writeTextFile(folder.temporary() / kTrialReport, report);
-  const std::vector<std::string> stale = missingIn(folder.temporary(), names.all(command.trial.frames));
+  writeTextFile(folder.temporary() / names.report, report);
+  const std::vector<std::string> stale = missingIn(folder.temporary(), older);
   folder.commit();
   for (const std::string& name : stale) fs::remove(fs::path(command.folder) / name);
 

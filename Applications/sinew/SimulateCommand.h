@@ -24,7 +24,8 @@ struct SimulatedMesh {
   std::string series;      ///< its .pvd in the folder; empty: none
   std::string tissue;
   std::int64_t tets = 0, nodes = 0, originNodes = 0, insertionNodes = 0;
-  const char* fibres = "";  ///< where they come from; empty for trials without
+  const char* fibres = "";             ///< where they come from; empty for trials without
+  std::int64_t tetsOutsideSpline = 0;  ///< see TissueFibres::outside
   double seconds = 0;
 };
 

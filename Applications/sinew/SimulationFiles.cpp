@@ -4,14 +4,17 @@
 #include "sinew/Mesher/MeshQuality.h"
 #include "sinew/Pipeline/FileNames.h"
 
+#include <CLI/CLI.hpp>
+
 #include <algorithm>
-#include <stdexcept>
 
 namespace sinew {
 
 namespace fs = std::filesystem;
 
 namespace {
+
+constexpr std::size_t kFrameDigits = 3;  // at least
 
 /// The last parts of a path.
 std::string lastParts(const fs::path& path, std::size_t count) {
@@ -29,7 +32,7 @@ std::vector<std::string> shortNames(const std::vector<std::string>& files) {
   std::vector<std::string> names;
   for (const fs::path& path : paths) {
     if (std::ranges::count(paths, path) > 1)
-      throw std::invalid_argument(path.string() + ": a mesh is given twice");
+      throw CLI::ValidationError("MESH", path.string() + " is given twice");
     const auto shared = [&](std::size_t parts) {
       const auto same = [&](const fs::path& other) {
         return lastParts(other, parts) == lastParts(path, parts);
@@ -53,6 +56,33 @@ std::vector<std::string> stemsOf(const std::vector<std::string>& names) {
   return tissueFileStems(tissues);
 }
 
+std::vector<std::string> TrialOutputs::olderIn(const fs::path& folder) const {
+  const auto isOwn = [&](const std::string& name) {
+    return name == report || name == table || name == plot ||
+           std::ranges::any_of(stems, [&](const std::string& stem) { return TrialSeries::owns(stem, name); });
+  };
+  std::vector<std::string> names;
+  std::error_code missing;
+  for (const auto& entry : fs::directory_iterator(folder, missing))
+    if (const std::string name = entry.path().filename().string(); isOwn(name)) names.push_back(name);
+  std::ranges::sort(names);
+  return names;
+}
+
+TrialOutputs trialOutputs(const SimulateCommand& command, const std::vector<std::string>& meshNames) {
+  const std::string trial(trialName(command.trial.trial));
+  TrialOutputs names{"report.json", trial + ".csv", trial + ".svg", {trial}};
+  if (meshNames.size() == 1) return names;
+  names.stems.clear();
+  for (const std::string& stem : stemsOf(meshNames)) names.stems.push_back(stem + "-" + trial);
+  return names;
+}
+
+std::vector<std::string> missingIn(const fs::path& folder, std::vector<std::string> names) {
+  std::erase_if(names, [&](const std::string& name) { return fs::exists(folder / name); });
+  return names;
+}
+
 TrialSeries::TrialSeries(fs::path folder, std::string stem, TissueMesh rest, NodeVectors fibres)
     : folder_(std::move(folder)),
       stem_(std::move(stem)),
@@ -61,9 +91,17 @@ TrialSeries::TrialSeries(fs::path folder, std::string stem, TissueMesh rest, Nod
       fibres_(std::move(fibres)) {}
 
 std::string TrialSeries::frameName(const std::string& stem, std::size_t frame) {
-  constexpr std::size_t kDigits = 3;
   const std::string number = std::to_string(frame);
-  return stem + '-' + std::string(kDigits - std::min(kDigits, number.size()), '0') + number + ".vtu";
+  return stem + '-' + std::string(kFrameDigits - std::min(kFrameDigits, number.size()), '0') + number +
+         ".vtu";
+}
+
+bool TrialSeries::owns(const std::string& stem, const std::string& name) {
+  if (name == listName(stem)) return true;
+  const std::string start = stem + '-', end = ".vtu";
+  if (!name.starts_with(start) || !name.ends_with(end)) return false;
+  const std::string number = name.substr(start.size(), name.size() - start.size() - end.size());
+  return number.size() >= kFrameDigits && number.find_first_not_of("0123456789") == number.npos;
 }
 
 void TrialSeries::add(double time, const NodeVectors& places) {

@@ -23,6 +23,7 @@ Json toJson(const SimulatedMesh& mesh, const TrialReport& report) {
   json["origin_nodes"] = mesh.originNodes;
   json["insertion_nodes"] = mesh.insertionNodes;
   json["fibres"] = mesh.fibres;
+  json["tets_outside_spline"] = mesh.tetsOutsideSpline;
   json["completed"] = report.completed;
   json["stopped_at"] = report.stoppedAt ? Json(*report.stoppedAt) : Json();
   json["verdict"] = report.verdict;

@@ -1,5 +1,6 @@
 #include "TissueFibres.h"
 
+#include "TextTable.h"
 #include "sinew/MeshIO/MeshFormats.h"
 #include "sinew/MeshIO/ReadMesh.h"
 #include "sinew/MeshIO/RegionMesh.h"
@@ -72,8 +73,10 @@ NodeVectors vectorsOf(const MeshArray& array) {
 
 std::vector<double> tendonsOf(const TissueMeshInput& input, const Attachments& attachments,
                               const std::optional<double>& share) {
-  if (share && *share > 0) return tendonShares(input.tissue.mesh, attachments, *share);
-  const MeshArray* own = share ? nullptr : findArray(input.tissue, "tendon", 1);
+  if (share)
+    return *share == kLeastTendon ? std::vector<double>{}
+                                  : tendonShares(input.tissue.mesh, attachments, *share);
+  const MeshArray* own = findArray(input.tissue, "tendon", 1);
   if (own == nullptr) return {};
   return {own->values.begin(), own->values.end()};
 }
@@ -88,7 +91,54 @@ auto naming(const std::string& file, const Compute& compute) {
   }
 }
 
+void checkShareOf(const char* option, double share, double least) {
+  try {
+    checkShare(share, least);
+  } catch (const std::invalid_argument& error) {
+    throw CLI::ValidationError(option, error.what());
+  }
+}
+
+void takeSpline(const TissueMeshInput& input, const std::string& file, TissueFibres& fibres) {
+  const TetMesh& mesh = input.tissue.mesh;
+  SplineFibres spline = splineFibres(mesh, readBsplineSolid(file));
+  const double far = meanBoundaryEdge(mesh);
+  fibres.outside = std::ranges::count_if(spline.distances, [&](double distance) { return distance > far; });
+  if (fibres.outside == std::ssize(mesh.tets))
+    throw std::runtime_error(
+        input.file + ": --spline " + file +
+        ": all tets lie outside of the solid; are its points in mm, and its space right?");
+  fibres.directions = filledFibres(mesh, std::move(spline.directions));
+  fibres.source = "spline";
+}
+
+void takeArray(const TissueMeshInput& input, const MeshArray& array, TissueFibres& fibres) {
+  fibres.directions = naming(input.file, [&] { return filledFibres(input.tissue.mesh, vectorsOf(array)); });
+  fibres.source = "mesh";
+}
+
+void takeField(const TissueMeshInput& input, const Attachments& attachments, TissueFibres& fibres) {
+  fibres.directions = naming(input.file, [&] { return fibreField(input.tissue.mesh, attachments); });
+  fibres.source = "harmonic";
+}
+
 }  // namespace
+
+void checkFibreSettings(const FibreSettings& settings) {
+  checkShareOf("--ends", settings.ends, kLeastEnd);
+  if (settings.tendon) checkShareOf("--tendon", *settings.tendon, kLeastTendon);
+}
+
+std::string TissueFibres::warning() const {
+  constexpr std::int64_t kMany = 10;  // one in
+  if (kMany * outside > std::ssize(directions))
+    return grouped(outside) + " of " + grouped(std::ssize(directions)) +
+           " tets lie outside of the spline; its nearest points tell their fibres";
+  if (missing > 0)
+    return grouped(missing) + " of " + grouped(std::ssize(directions)) +
+           " tets have no fibre: their pieces of the mesh reach one of the ends at most";
+  return {};
+}
 
 std::vector<Option> fibreOptions(FibreSettings& settings) {
   constexpr const char* kWhere =
@@ -142,22 +192,25 @@ Attachments attachmentsOf(const TissueMeshInput& input, const FibreSettings& set
 
 TissueFibres fibresOf(const TissueMeshInput& input, const Attachments& attachments,
                       const FibreSettings& settings, OwnFibres own) {
-  const TetMesh& mesh = input.tissue.mesh;
-  const MeshArray* array = own == OwnFibres::Take ? findArray(input.tissue, "fibres", 3) : nullptr;
+  const bool take = own == OwnFibres::Take && settings.spline.empty();
+  const MeshArray* array = take ? findArray(input.tissue, "fibres", 3) : nullptr;
   TissueFibres fibres;
-  if (!settings.spline.empty()) {
-    fibres.directions = filledFibres(mesh, splineFibres(mesh, readBsplineSolid(settings.spline)));
-    fibres.source = "spline";
-  } else if (array != nullptr) {
-    fibres.directions = naming(input.file, [&] { return filledFibres(mesh, vectorsOf(*array)); });
-    fibres.source = "mesh";
-  } else {
-    fibres.directions = naming(input.file, [&] { return fibreField(mesh, attachments); });
-    fibres.source = "harmonic";
-  }
-  fibres.tendons = naming("--tendon", [&] { return tendonsOf(input, attachments, settings.tendon); });
+  if (!settings.spline.empty())
+    takeSpline(input, settings.spline, fibres);
+  else if (array != nullptr)
+    takeArray(input, *array, fibres);
+  else
+    takeField(input, attachments, fibres);
+  fibres.tendons = tendonsOf(input, attachments, settings.tendon);
   fibres.missing =
       std::ranges::count_if(fibres.directions, [](const Vector3d& fibre) { return fibre.isZero(); });
+  if (fibres.missing == std::ssize(fibres.directions))
+    throw std::runtime_error(
+        input.file + ": no tet gets a fibre: " +
+        (array != nullptr
+             ? "the mesh's array fibres is zero everywhere; make it anew with sinew fibres"
+             : "no piece of the mesh reaches from the origin to the insertion; choose both on its "
+               "largest piece, with --origin and --insertion"));
   return fibres;
 }
 

@@ -19,6 +19,10 @@ struct FibreSettings {
 /// The options of `settings`, as rows; the settings must outlive them.
 std::vector<Option> fibreOptions(FibreSettings& settings);
 
+/// Before anything is read.
+/// @throws CLI::ValidationError naming the option
+void checkFibreSettings(const FibreSettings& settings);
+
 /// The ends of a tissue: what the options name, or else the ends along its long axis; for one alone the end
 /// that is farther from it.
 /// @throws std::runtime_error naming the file and the option
@@ -30,6 +34,10 @@ struct TissueFibres {
   std::vector<double> tendons;  ///< share of tendon of each tet; empty for none
   const char* source = "";      ///< "spline", "mesh" or "harmonic"
   std::int64_t missing = 0;     ///< tets without
+  std::int64_t outside = 0;     ///< of a spline: tets that lie farther from it than the mesh's edges are long
+
+  /// What a person should know about them; empty: nothing.
+  std::string warning() const;
 };
 
 enum class OwnFibres { Take, Ignore };
@@ -37,7 +45,7 @@ enum class OwnFibres { Take, Ignore };
 /// From the file of a B-spline solid when there is one, else the mesh's own array `fibres` when it is to be
 /// taken and there, else the harmonic field between the attachments. Tendons as chosen, else from the mesh's
 /// own array `tendon`.
-/// @throws std::runtime_error naming the file
+/// @throws std::runtime_error naming the file, also when no tet gets a fibre or all lie outside of the spline
 TissueFibres fibresOf(const TissueMeshInput& input, const Attachments& attachments,
                       const FibreSettings& settings, OwnFibres own);
 

@@ -3,6 +3,7 @@
 #include "sinew/MeshIO/MeshFormats.h"
 #include "sinew/MeshIO/ReadMesh.h"
 #include "sinew/MeshIO/RegionMesh.h"
+#include "sinew/Simulation/MeshTrial.h"
 
 #include <algorithm>
 #include <cctype>
@@ -54,6 +55,11 @@ std::optional<std::int32_t> findTissue(const TissueMesh& mesh, const std::string
 TissueMeshInput readTissueMesh(const std::string& file, const std::string& wish) {
   TissueMeshInput input{file, readMesh(file, {.cellArrays = true}), {}};
   input.tissue = regionMesh(input.all, labelOf(input.all, file, wish));
+  try {
+    checkTetsAtRest(input.tissue.mesh);
+  } catch (const std::invalid_argument& error) {
+    throw std::runtime_error(file + ": " + error.what());
+  }
   TissueRegion& region = input.tissue.regions.front();
   if (!region.named) {
     const std::string name = std::filesystem::path(file).filename().string();

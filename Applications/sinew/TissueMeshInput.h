@@ -15,7 +15,8 @@ struct TissueMeshInput {
 };
 
 /// @param wish  name or label of the tissue; may be empty when the file has only one
-/// @throws std::runtime_error naming the file when it cannot be read, or has not that one tissue
+/// @throws std::runtime_error naming the file when it cannot be read, has not that one tissue, or when
+/// tets of it are flat or inverted
 TissueMeshInput readTissueMesh(const std::string& file, const std::string& wish);
 
 /// The label of a tissue of a mesh, by name (without regard to case) or label; nothing when there is none.

@@ -120,6 +120,51 @@ TEST_F(FibresCommand, FollowASplineInTheFilesSpace) {
   EXPECT_NEAR(values[2], 2 / std::sqrt(5.), 1e-6);
 }
 
+std::string boxSpline(double from) {
+  std::string points;
+  for (const double z : {from, from + 14})
+    for (const double y : {-1., 5.})
+      for (const double x : {-1., 5.})
+        points += (points.empty() ? "[" : ",[") + std::to_string(x) + ',' + std::to_string(y) + ',' +
+                  std::to_string(z) + ']';
+  return R"({"counts": [2, 2, 2], "space": "LPS", "points": [)" + points + "]}";
+}
+
+TEST_F(FibresCommand, CountTheTetsOutsideOfASpline) {
+  const auto fibres = [&](double from) {
+    writeBytes(folder_ / "s.json", boxSpline(from));
+    return run({"fibres", at("bar.vtu"), "-o", at("o.vtu"), "--spline", at("s.json"), "--force", "--json",
+                "-", "--quiet"});
+  };
+  EXPECT_EQ(Json::parse(fibres(-1).out)["tets_outside_spline"], 0);
+  const int part = Json::parse(fibres(4).out)["tets_outside_spline"];
+  EXPECT_GT(part, 200) << "nearly three of twelve layers of 96";
+  EXPECT_LT(part, 288);
+  writeBytes(folder_ / "s.json", boxSpline(4));
+  const ProgramResult warned =
+      run({"fibres", at("bar.vtu"), "-o", at("o.vtu"), "--spline", at("s.json"), "--force"});
+  EXPECT_EQ(warned.err,
+            at("bar.vtu") + ": " + std::to_string(part) +
+                " of 1,152 tets lie outside of the spline; its nearest points tell their fibres\n");
+  writeBytes(folder_ / "s.json", boxSpline(400));
+  EXPECT_EQ(failure({"fibres", at("bar.vtu"), "-o", at("p.vtu"), "--spline", at("s.json")}, 1),
+            at("bar.vtu") + ": --spline " + at("s.json") +
+                ": all tets lie outside of the solid; are its points in mm, and its space right?");
+}
+
+TEST_F(FibresCommand, RefuseAMeshWhoseEndsLieOnDifferentPieces) {
+  TissueMesh mesh = barAndBlock();
+  std::ranges::fill(mesh.mesh.labels, 1);
+  mesh.regions.resize(1);
+  writeMesh(mesh, folder_ / "pieces.vtu");
+  EXPECT_EQ(
+      failure({"fibres", at("pieces.vtu"), "-o", at("o.vtu"), "--ends", "0.1"}, 1),
+      at("pieces.vtu") +
+          ": no tet gets a fibre: no piece of the mesh reaches from the origin to the insertion; choose "
+          "both on its largest piece, with --origin and --insertion");
+  EXPECT_FALSE(fs::exists(at("o.vtu")));
+}
+
 TEST_F(FibresCommand, StayWhenTheMeshIsConverted) {
   ASSERT_EQ(run({"fibres", at("bar.vtu"), "-o", at("f.vtu"), "--ends", "0.2"}).exitCode, 0);
   ASSERT_EQ(run({"convert", at("f.vtu"), at("g.vtk"), "--space", "RAS"}).exitCode, 0);
@@ -148,7 +193,7 @@ TEST_F(FibresCommand, ErrorsSayWhatAndWhere) {
       refusal({at("bar.vtu"), "--origin", "box:0,0,0,4,4,12"}),
       at("bar.vtu") +
           ": origin and insertion share 50 nodes; choose attachments that lie apart, or that reach less far");
-  EXPECT_EQ(refusal({at("bar.vtu"), "--ends", "0.6"}),
+  EXPECT_EQ(refusal({at("bar.vtu"), "--ends", "0.6"}, 2),
             "--ends: a share of 0.6; it must be above 0 and below 0.5");
   EXPECT_EQ(refusal({at("both.vtu")}),
             at("both.vtu") + ": holds 2 tissues; choose one of them with --label: biceps (1), bone (2)");
@@ -201,8 +246,7 @@ TEST_F(SimulateCommand, ContractsAndWritesWhatItSaw) {
   EXPECT_TRUE(mesh["completed"]);
   EXPECT_EQ(mesh["frames"], 5);
   const auto& ratios = cellArray(top, "aspect_ratio").values;
-  EXPECT_NEAR(*std::ranges::max_element(ratios),
-              mesh["max_aspect_ratio"].get<double>(), 1e-4);  // floats
+  EXPECT_NEAR(*std::ranges::max_element(ratios), mesh["max_aspect_ratio"].get<double>(), 1e-4);  // floats
   const auto& J = cellArray(top, "J").values;
   EXPECT_LT(*std::ranges::min_element(J), 1);
 }
@@ -280,6 +324,42 @@ TEST_F(SimulateCommand, ATrialThatStopsEarlyFailsAndIsWritten) {
   EXPECT_EQ(countElements(folder_ / "out" / "twist.svg", "path"), 6) << "crosses where it stops";
 }
 
+TEST_F(SimulateCommand, AShorterRunRemovesTheFramesOfALongerOne) {
+  const auto compress = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"simulate", at("bar.vtu"), "--compress", "0.1", "-o", at("out"), "--force"});
+    EXPECT_EQ(run(more).exitCode, 0);
+    return namesIn(folder_ / "out");
+  };
+  compress({"--frames", "4"});
+  for (const char* other : {"compress-1.vtu", "compress-00x.vtu", "stretch-004.vtu"})
+    writeBytes(folder_ / "out" / other, "not of this trial");
+  const std::vector<std::string> kept{"compress-00x.vtu", "compress-1.vtu", "compress.csv",
+                                      "compress.svg",     "report.json",    "stretch-004.vtu"};
+  std::vector<std::string> series{"compress-000.vtu", "compress-001.vtu", "compress-002.vtu", "compress.pvd"};
+  series.insert(series.end(), kept.begin(), kept.end());
+  std::ranges::sort(series);
+  EXPECT_EQ(compress({"--frames", "2"}), series);
+  EXPECT_EQ(compress({"--frames", "2", "--no-series"}), kept);
+}
+
+TEST_F(SimulateCommand, TwistsEitherWay) {
+  ASSERT_EQ(
+      run({"simulate", at("bar.vtu"), "--twist", "-20", "--frames", "2", "--no-series", "-o", at("out")})
+          .exitCode,
+      0);
+  EXPECT_EQ(Json::parse(readBytes(folder_ / "out" / "report.json"))["options"]["amount"], -20);
+}
+
+TEST_F(SimulateCommand, InvertedTetsAreNamedBeforeFibresAreMade) {
+  TissueMesh mesh = bar();
+  std::swap(mesh.mesh.tets[5][0], mesh.mesh.tets[5][1]);
+  writeMesh(mesh, folder_ / "inverted.vtk");
+  const std::string wrong =
+      at("inverted.vtk") + ": 1 tets are flat or inverted at rest, the first is tet 5 near (";
+  EXPECT_TRUE(failure({"simulate", at("inverted.vtk"), "--contract", "-o", at("out")}, 1).starts_with(wrong));
+  EXPECT_TRUE(failure({"fibres", at("inverted.vtk"), "-o", at("o.vtu")}, 1).starts_with(wrong));
+}
+
 TEST_F(SimulateCommand, AnInterruptLeavesNothing) {
   Program program({"simulate", at("bar.vtu"), "--contract", "--tendon", "0.2", "--frames", "2000", "-o",
                    at("out"), "--verbose"});
@@ -298,19 +378,33 @@ TEST_F(SimulateCommand, ErrorsSayWhatAndWhere) {
   const std::string choose = "choose one of --contract, --compress, --indent, --stretch and --twist";
   EXPECT_EQ(refusal({at("bar.vtu")}, 2), choose);
   EXPECT_EQ(refusal({at("bar.vtu"), "--twist", "--contract"}, 2), choose);
-  EXPECT_EQ(refusal({"--twist", "0", at("bar.vtu")}, 2), "--twist: '0' is no amount above 0");
+  EXPECT_EQ(refusal({"--twist", "0", at("bar.vtu")}, 2),
+            "--twist: the amount is 0, but must be an angle in degrees other than 0");
   EXPECT_EQ(refusal({"--twist", at("bar.vtu"), at("b.vtu")}, 2),
             "MESH: 2 meshes; add --compare to compare them");
   EXPECT_EQ(refusal({"--twist"}, 2), "MESH is required");
-  EXPECT_EQ(refusal({at("bar.vtu"), "--twist", "--frames", "100000"}, 2), "--frames: 100000; at most 9999");
+  EXPECT_EQ(refusal({at("bar.vtu"), "--twist", "--frames", "100000"}, 2),
+            "--frames: 100000; it must be an even number up to 9998");
+  EXPECT_EQ(refusal({at("none.vtu"), "--twist", "--frames", "41"}, 2),
+            "--frames: 41; it must be an even number up to 9998");
   EXPECT_EQ(refusal({at("bar.vtu"), at("b.vtu"), "--twist"}, 2),
             "MESH: 2 meshes; add --compare to compare them");
-  EXPECT_EQ(refusal({at("bar.vtu"), at("bar.vtu"), "--compare", "--twist"}, 1),
-            at("bar.vtu") + ": a mesh is given twice");
-  EXPECT_EQ(refusal({at("bar.vtu"), "--twist", "--ends", "0"}, 1),
+  EXPECT_EQ(refusal({at("bar.vtu"), at("bar.vtu"), "--compare", "--twist"}, 2),
+            "MESH: " + at("bar.vtu") + " is given twice");
+  EXPECT_EQ(refusal({at("none.vtu"), "--twist", "--ends", "0"}, 2),
             "--ends: a share of 0; it must be above 0 and below 0.5");
-  EXPECT_EQ(refusal({at("bar.vtu"), "--compress", "1.2"}, 1),
-            at("bar.vtu") + ": the amount is 1.200, but must be a share in (0, 1)");
+  EXPECT_EQ(refusal({at("none.vtu"), "--compress", "1.2"}, 2),
+            "--compress: the amount is 1.2, but must be a share in (0, 1)");
+  EXPECT_EQ(refusal({at("none.vtu"), "--contract", "1.5"}, 2),
+            "--contract: the amount is 1.5, but must be an activation in (0, 1]");
+  for (const char* tendon : {"-1", "nan", "0.5"})
+    EXPECT_EQ(refusal({at("none.vtu"), "--contract", std::string("--tendon=") + tendon}, 2),
+              std::string("--tendon: a share of ") + tendon + "; it must be 0 or more and below 0.5");
+  EXPECT_EQ(refusal({at("bar.vtu"), "--compress", "--spline", at("none.json")}, 2),
+            "--spline: has no effect on --compress");
+  EXPECT_EQ(refusal({at("bar.vtu"), "--twist", "--tendon", "0.1"}, 2), "--tendon: has no effect on --twist");
+  EXPECT_EQ(refusal({at("bar.vtu"), "--indent", "--tension", "3"}, 2),
+            "--tension: has no effect on --indent");
   EXPECT_FALSE(fs::exists(folder_ / "out"));
 
   writeBytes(folder_ / "twist.csv", "older");

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <unsupported/Eigen/BVH>
 #include <unsupported/Eigen/Splines>
 
 namespace sinew {
@@ -81,7 +82,45 @@ Vector3d boundedStep(const Vector3d& parameters, const Matrix3d& slopes, const V
   return normal.ldlt().solve(free.transpose() * off);
 }
 
+/// A place of the solid by its number.
+struct Sample {
+  Vector3d x;
+  std::size_t number;
+};
+
+/// Eigen's tree asks for it by this name.
+Eigen::AlignedBox3d bounding_box(const Sample& sample) { return Eigen::AlignedBox3d(sample.x); }
+
+/// What Eigen's tree minimizes; it keeps the sample that it found.
+struct DistanceFrom {
+  using Scalar = double;
+  const Vector3d& x;
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t number = 0;
+
+  double minimumOnVolume(const Eigen::AlignedBox3d& box) const { return box.squaredExteriorDistance(x); }
+  double minimumOnObject(const Sample& sample) {
+    const double distance = (sample.x - x).squaredNorm();
+    if (distance < least) {
+      least = distance;
+      number = sample.number;
+    }
+    return distance;
+  }
+};
+
+Vector3d unitOrZero(const Vector3d& vector) {
+  const double length = vector.norm();
+  return length > 0 ? Vector3d(vector / length) : Vector3d::Zero();
+}
+
 }  // namespace
+
+/// Where the search for nearest points starts.
+struct BsplineSolid::Samples {
+  NodeVectors parameters;
+  Eigen::KdBVH<double, 3, Sample> tree;
+};
 
 BsplineSolid::BsplineSolid(const std::array<int, 3>& counts, NodeVectors points)
     : counts_(counts), points_(std::move(points)) {
@@ -97,7 +136,12 @@ BsplineSolid::BsplineSolid(const std::array<int, 3>& counts, NodeVectors points)
     throw std::invalid_argument(std::to_string(points_.size()) + " control points; the counts ask for " +
                                 std::to_string(wanted));
   checkUnfolded();
-  sample();
+  constexpr int kPerSpan = 5;
+  NodeVectors parameters = sampleGrid(counts_, kPerSpan, true);
+  std::vector<Sample> samples;
+  for (const Vector3d& place : parameters) samples.push_back({at(place).x, samples.size()});
+  samples_ = std::make_shared<const Samples>(std::move(parameters),
+                                             Eigen::KdBVH<double, 3, Sample>(samples.begin(), samples.end()));
 }
 
 void BsplineSolid::checkUnfolded() const {
@@ -115,12 +159,6 @@ void BsplineSolid::checkUnfolded() const {
     place << parameters[0] << ", " << parameters[1] << ", " << parameters[2];
     throw std::invalid_argument("the solid is folded or flat at u, v, w = " + place.str());
   }
-}
-
-void BsplineSolid::sample() {
-  constexpr int kPerSpan = 5;
-  sampleParameters_ = sampleGrid(counts_, kPerSpan, true);
-  for (const Vector3d& parameters : sampleParameters_) samplePlaces_.push_back(at(parameters).x);
 }
 
 BsplineSolid::Place BsplineSolid::at(const Vector3d& parameters) const {
@@ -146,9 +184,9 @@ BsplineSolid::Place BsplineSolid::at(const Vector3d& parameters) const {
 Vector3d BsplineSolid::nearest(const Vector3d& x) const {
   constexpr int kMostSteps = 100;
   constexpr double kSmallestStep = 1e-12, kLeastDamping = 1e-15, kMostDamping = 1e6;
-  const auto closest = std::ranges::min_element(
-      samplePlaces_, {}, [&](const Vector3d& place) { return (place - x).squaredNorm(); });
-  Vector3d parameters = sampleParameters_[static_cast<std::size_t>(closest - samplePlaces_.begin())];
+  DistanceFrom from{x};
+  Eigen::BVMinimize(samples_->tree, from);
+  Vector3d parameters = samples_->parameters[from.number];
   Place here = at(parameters);
   double damping = 1e-6;
   for (int step = 0; step < kMostSteps && damping < kMostDamping; ++step) {
@@ -166,17 +204,16 @@ Vector3d BsplineSolid::nearest(const Vector3d& x) const {
   return parameters;
 }
 
-Vector3d BsplineSolid::fibre(const Vector3d& x) const {
-  const Vector3d along = at(nearest(x)).slopes.col(2);
-  const double length = along.norm();
-  return length > 0 ? Vector3d(along / length) : Vector3d::Zero();
-}
+Vector3d BsplineSolid::fibre(const Vector3d& x) const { return unitOrZero(at(nearest(x)).slopes.col(2)); }
 
-NodeVectors splineFibres(const TetMesh& mesh, const BsplineSolid& solid) {
-  NodeVectors fibres(mesh.tets.size());
+SplineFibres splineFibres(const TetMesh& mesh, const BsplineSolid& solid) {
+  SplineFibres fibres{NodeVectors(mesh.tets.size()), std::vector<double>(mesh.tets.size())};
   forEachIndex(mesh.tets.size(), [&](std::size_t t) {
     const auto& [a, b, c, d] = mesh.tets[t];
-    fibres[t] = solid.fibre((mesh.nodes[a] + mesh.nodes[b] + mesh.nodes[c] + mesh.nodes[d]) / 4);
+    const Vector3d middle = (mesh.nodes[a] + mesh.nodes[b] + mesh.nodes[c] + mesh.nodes[d]) / 4;
+    const BsplineSolid::Place place = solid.at(solid.nearest(middle));
+    fibres.directions[t] = unitOrZero(place.slopes.col(2));
+    fibres.distances[t] = (place.x - middle).norm();
   });
   return fibres;
 }

@@ -143,13 +143,23 @@ TEST(BsplineSolid, MayTaperToAPoint) {
 TEST(BsplineSolid, TetsGetTheFibreOfTheirCentroid) {
   const TetMesh mesh = test::barMesh({2, 2, 4}, 5);
   const BsplineSolid solid({4, 4, 6}, grid({4, 4, 6}, twisted));
-  const NodeVectors fibres = splineFibres(mesh, solid);
+  const auto [fibres, distances] = splineFibres(mesh, solid);
   ASSERT_EQ(fibres.size(), mesh.tets.size());
   for (std::size_t t = 0; t < fibres.size(); ++t) {
     Vector3d centre = Vector3d::Zero();
     for (const std::int32_t node : mesh.tets[t]) centre += mesh.nodes[static_cast<std::size_t>(node)] / 4;
     EXPECT_LT((fibres[t] - solid.fibre(centre)).norm(), 1e-9) << t;  // centroids differ by round-off
   }
+}
+
+TEST(BsplineSolid, TetsKnowHowFarFromItTheyLie) {
+  TetMesh mesh = test::barMesh({2, 2, 2}, 1);
+  const BsplineSolid box({2, 2, 2}, grid({2, 2, 2}, [](const Vector3d& p) { return Vector3d(2 * p); }));
+  for (const double distance : splineFibres(mesh, box).distances) EXPECT_LT(distance, 1e-9);  // round-off
+  for (Vector3d& x : mesh.nodes) x.x() += 10;
+  const std::vector<double> distances = splineFibres(mesh, box).distances;
+  EXPECT_NEAR(*std::ranges::min_element(distances), 8.25, 1e-9);  // centroids lie in quarters
+  EXPECT_NEAR(*std::ranges::max_element(distances), 9.75, 1e-9);
 }
 
 std::string refusal(const Counts& counts, const NodeVectors& points) {

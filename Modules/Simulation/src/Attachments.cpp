@@ -32,12 +32,6 @@ Extent extentAlong(const TetMesh& mesh, const Vector3d& axis) {
   return extent;
 }
 
-void checkShare(double share, double least) {
-  if (!(share >= least && share < 0.5))
-    throw std::invalid_argument("a share of " + toText(share) + "; it must be " +
-                                (least > 0 ? "above 0" : "0 or more") + " and below 0.5");
-}
-
 Vector3d middleOf(const TetMesh& mesh, const std::vector<std::int32_t>& nodes) {
   Vector3d sum = Vector3d::Zero();
   for (const std::int32_t node : nodes) sum += mesh.nodes[static_cast<std::size_t>(node)];
@@ -69,8 +63,14 @@ Vector3d longAxis(const TetMesh& mesh) {
   return axis[largest] < 0 ? Vector3d(-axis) : axis;
 }
 
+void checkShare(double share, double least) {
+  if (!(share >= least && share < 0.5))
+    throw std::invalid_argument("a share of " + toText(share) + "; it must be " +
+                                (least > 0 ? "above 0" : "0 or more") + " and below 0.5");
+}
+
 Attachments endsOf(const TetMesh& mesh, double share) {
-  checkShare(share, std::numeric_limits<double>::min());
+  checkShare(share, kLeastEnd);
   const Vector3d axis = longAxis(mesh);
   const Extent extent = extentAlong(mesh, axis);
   Attachments ends;
@@ -106,7 +106,7 @@ void checkApart(const Attachments& attachments) {
 }
 
 std::vector<double> tendonShares(const TetMesh& mesh, const Attachments& attachments, double share) {
-  checkShare(share, 0);
+  checkShare(share, kLeastTendon);
   std::vector<double> shares(mesh.tets.size(), 0);
   if (share == 0) return shares;
   const Vector3d axis =

@@ -91,7 +91,7 @@ Indenter placeIndenter(const TetMesh& mesh, const Vector3d& middle, const Vector
     const Vector3d across = *push - axis * axis.dot(*push);
     constexpr double kAlong = 1e-6;
     if (!(across.norm() > kAlong * push->norm()))
-      throw std::invalid_argument("runTrial: the push is along the long axis, but must be across it");
+      throw std::invalid_argument("the push is along the long axis, but must be across it");
     indenter.push = across.normalized();
   } else {
     indenter.push = thinnestWay(mesh, surface, middle, axis);
@@ -113,7 +113,7 @@ Indenter placeIndenter(const TetMesh& mesh, const Vector3d& middle, const Vector
     }
   }
   if (indenter.patch.empty() || indenter.bed.empty())
-    throw std::invalid_argument("runTrial: there is no surface to push or to rest on around " +
+    throw std::invalid_argument("there is no surface to push or to rest on around " +
                                 placeText(middle) + "; give another direction of the push, or a finer mesh");
   return indenter;
 }

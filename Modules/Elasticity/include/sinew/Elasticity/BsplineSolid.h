@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <memory>
 #include <vector>
 
 namespace sinew {
@@ -33,7 +34,7 @@ class BsplineSolid {
 
   /// u, v, w of the point of the solid next to x: of x itself where x lies inside. By damped Newton steps
   /// with bounds (Gauss-Newton) from the nearest of some samples.
-  /// Cost: O(samples), 125 for each span.
+  /// Cost: O(log samples), of which each span has 125; then some steps.
   Eigen::Vector3d nearest(const Eigen::Vector3d& x) const;
 
   /// The unit vector along dS/dw at nearest(x); zero where dS/dw is.
@@ -41,15 +42,20 @@ class BsplineSolid {
 
  private:
   void checkUnfolded() const;
-  void sample();
-
   std::array<int, 3> counts_;
   std::array<Knots, 3> knots_;
   NodeVectors points_;
-  NodeVectors sampleParameters_, samplePlaces_;
+  struct Samples;
+  std::shared_ptr<const Samples> samples_;
 };
 
-/// The fibre of each tet at its centroid. Cost: one nearest() for each tet; parallel.
-NodeVectors splineFibres(const TetMesh& mesh, const BsplineSolid& solid);
+struct SplineFibres {
+  NodeVectors directions;         ///< of each tet, a unit vector along dS/dw; zero where dS/dw is
+  std::vector<double> distances;  ///< of its centroid from the solid, mm; about 0 inside
+};
+
+/// The fibre of each tet at the point of the solid next to its centroid. Cost: one nearest() for each tet;
+/// parallel.
+SplineFibres splineFibres(const TetMesh& mesh, const BsplineSolid& solid);
 
 }  // namespace sinew

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -19,6 +20,11 @@ struct Attachments {
 /// The axis of the least moment of inertia, as a unit vector; its largest component is positive: for an
 /// upright tissue it points to the head. Cost: O(tets).
 Eigen::Vector3d longAxis(const TetMesh& mesh);
+
+/// Of a length, at each end: for endsOf() and tendonShares().
+/// @throws std::invalid_argument unless the share is in [least, 0.5)
+void checkShare(double share, double least);
+inline constexpr double kLeastEnd = std::numeric_limits<double>::min(), kLeastTendon = 0;
 
 /// The nodes near the two ends of a mesh along its long axis. The origin is the end that the axis points to.
 /// @param share  of the length that each end takes, in (0, 0.5)
