@@ -310,17 +310,18 @@ TEST_F(SimulateCommand, ALooseSpeckIsHeldStill) {
 
 TEST_F(SimulateCommand, ATrialThatStopsEarlyFailsAndIsWritten) {
   fs::create_directory(folder_ / "out");
-  writeBytes(folder_ / "out" / "twist-002.vtu", "of an older run");
+  writeBytes(folder_ / "out" / "indent-002.vtu", "of an older run");
   const ProgramResult result =
-      run({"simulate", at("bar.vtu"), "--twist", "1800", "--frames", "2", "-o", at("out"), "--force"});
+      run({"simulate", at("bar.vtu"), "--indent", "0.99", "--frames", "2", "-o", at("out"), "--force"});
   EXPECT_EQ(result.exitCode, 1);
   EXPECT_EQ(result.err, "");
-  EXPECT_TRUE(result.out.starts_with("bar.vtu: twist stops at ")) << result.out;
-  EXPECT_EQ(namesIn(folder_ / "out"), (std::vector<std::string>{"report.json", "twist-000.vtu", "twist.csv",
-                                                                "twist.pvd", "twist.svg"}));
+  EXPECT_TRUE(result.out.starts_with("bar.vtu: indentation stops at ")) << result.out;
+  EXPECT_EQ(namesIn(folder_ / "out"),
+            (std::vector<std::string>{"indent-000.vtu", "indent.csv", "indent.pvd", "indent.svg",
+                                      "report.json"}));
   const Json report = Json::parse(readBytes(folder_ / "out" / "report.json"));
   EXPECT_FALSE(report["meshes"][0]["completed"]);
-  EXPECT_EQ(countElements(folder_ / "out" / "twist.svg", "path"), 6) << "crosses where it stops";
+  EXPECT_EQ(countElements(folder_ / "out" / "indent.svg", "path"), 6) << "crosses where it stops";
 }
 
 TEST_F(SimulateCommand, AShorterRunRemovesTheFramesOfALongerOne) {
