@@ -27,8 +27,8 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 const fs::path kModules = SINEW_MODULES;
-const fs::path kMesher = kModules / "SinewMesher";
-const fs::path kRepair = kModules / "SinewRepair";
+const fs::path kMesherModule = kModules / "SinewMesher";
+const fs::path kRepairModule = kModules / "SinewRepair";
 
 double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -90,7 +90,7 @@ std::vector<std::string> exampleOf(const Parameter& parameter) {
 }
 
 class SlicerModule : public testing::TestWithParam<fs::path> {};
-INSTANTIATE_TEST_SUITE_P(Modules, SlicerModule, testing::Values(kMesher, kRepair),
+INSTANTIATE_TEST_SUITE_P(Modules, SlicerModule, testing::Values(kMesherModule, kRepairModule),
                          [](const auto& info) { return info.param.filename().string(); });
 
 TEST_P(SlicerModule, C1_TheDescriptionComesAtOnceAndAlone) {
@@ -137,12 +137,13 @@ TEST_P(SlicerModule, C1_EveryFlagOfTheDescriptionIsTaken) {
 
 TEST(SlicerMesher, C1_EveryChoiceOfTheDescriptionIsTakenAndNoOther) {
   int choices = 0;
-  for (const Parameter& parameter : parametersOf(runModule(kMesher, {"--xml"}).out))
+  for (const Parameter& parameter : parametersOf(runModule(kMesherModule, {"--xml"}).out))
     for (const std::string& choice : parameter.choices) {
       ++choices;
       const std::string flag = "--" + parameter.flag;
-      EXPECT_EQ(runModule(kMesher, {flag, choice, "missing.nrrd", "a.vtu"}).exitCode, 1) << choice;
-      EXPECT_EQ(runModule(kMesher, {flag, choice + "x", "missing.nrrd", "a.vtu"}).exitCode, 2) << choice;
+      EXPECT_EQ(runModule(kMesherModule, {flag, choice, "missing.nrrd", "a.vtu"}).exitCode, 1) << choice;
+      EXPECT_EQ(runModule(kMesherModule, {flag, choice + "x", "missing.nrrd", "a.vtu"}).exitCode, 2)
+          << choice;
     }
   EXPECT_GT(choices, 0);
 }
@@ -181,7 +182,7 @@ TEST(SlicerMesher, C2_RunsAsSlicerCallsIt) {
   const fs::path nested = makePhantom(folder, "nested", {"--spacing", "3"});
   const fs::path mesh = folder / "mesh.vtu", results = folder / "results.txt";
   const ProgramResult result = runModule(
-      kMesher,
+      kMesherModule,
       withContract({"--edge-length", "6mm", "--curvature", "1", "--target-tets", "0", "--tissue",
                     "core,inner shell", "--size", "core=4mm", "--folder", (folder / "meshes").string(),
                     "--returnparameterfile", results.string(), nested.string(), mesh.string()}));
@@ -199,9 +200,10 @@ TEST(SlicerRepair, C2_RunsAsSlicerCallsIt) {
   writeBytes(folder / "script.lua",
              "print(size)\nsave('core', tissue('core'):offset(size))\nremove 'inner shell'\n");
   const fs::path output = folder / "out.seg.nrrd", results = folder / "results.txt";
-  const ProgramResult result = runModule(
-      kRepair, withContract({"--set", "size=1", "--grid", "0mm", "--returnparameterfile", results.string(),
-                             nested.string(), (folder / "script.lua").string(), output.string()}));
+  const ProgramResult result =
+      runModule(kRepairModule,
+                withContract({"--set", "size=1", "--grid", "0mm", "--returnparameterfile", results.string(),
+                              nested.string(), (folder / "script.lua").string(), output.string()}));
   ASSERT_EQ(result.exitCode, 0) << result.err;
   EXPECT_EQ(readSegmentation(output).tissues.size(), readSegmentation(nested).tissues.size() - 1);
   EXPECT_EQ(readBytes(results), "tissuesSaved = 1\ntissuesRemoved = 1\n");
@@ -219,7 +221,7 @@ std::vector<double> progressIn(const std::string& text) {
 TEST(SlicerMesher, C3_ProgressGoesFromZeroToOneWithoutPausesAndNothingElseComplains) {
   const TempFolder folder;
   const fs::path arm = makePhantom(folder, "upper-arm");
-  Program program(kMesher, {"--edge-length", "1.2mm", arm.string(), (folder / "mesh.vtu").string()});
+  Program program(kMesherModule, {"--edge-length", "1.2mm", arm.string(), (folder / "mesh.vtu").string()});
   auto last = Clock::now();
   std::size_t seen = 0;
   double longest = 0;
@@ -247,7 +249,8 @@ TEST(SlicerMesher, C2_NamesMayHoldCommas) {
   const std::string input = (folder / "commas.seg.nrrd").string(), mesh = (folder / "mesh.vtu").string();
   writeSegmentation(segmentation, input);
   const auto regionsOf = [&](const std::string& list) {
-    const ProgramResult result = runModule(kMesher, {"--edge-length", "6", "--tissue", list, input, mesh});
+    const ProgramResult result =
+        runModule(kMesherModule, {"--edge-length", "6", "--tissue", list, input, mesh});
     EXPECT_EQ(result.exitCode, 0) << result.err;
     std::set<std::string> names;
     for (const TissueRegion& region : readMesh(mesh).regions) names.insert(region.name);
@@ -264,7 +267,7 @@ TEST_P(SlicerModule, C1_ListsAreSaidToHaveCommas) {
 }
 
 TEST(SlicerMesher, C4_AnUnknownKindOfMeshIsToldAtOnceByItsName) {
-  const ProgramResult result = runModule(kMesher, {"missing.nrrd", "out/mesh.xyz"});
+  const ProgramResult result = runModule(kMesherModule, {"missing.nrrd", "out/mesh.xyz"});
   EXPECT_EQ(result.exitCode, 2);
   EXPECT_EQ(result.err,
             "SinewMesher: output-mesh: out/mesh.xyz: unknown kind of mesh file; known are .vtu, .vtk, "
@@ -282,7 +285,7 @@ TEST(SlicerMesher, C4_FailureIsOneLineAnExitCodeAndNoFile) {
            {"--folder", meshes, "--no-such-flag", "1", nested.string(), mesh},
            {"--folder", meshes, nested.string()},
            {"--folder", meshes, nested.string(), (folder / "none" / "mesh.vtu").string()}}) {
-    const ProgramResult result = runModule(kMesher, arguments);
+    const ProgramResult result = runModule(kMesherModule, arguments);
     EXPECT_GT(result.exitCode, 0);
     EXPECT_TRUE(result.err.starts_with("SinewMesher: ")) << result.err;
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
@@ -295,7 +298,7 @@ TEST(SlicerRepair, C4_FailureIsOneLineAnExitCodeAndNoFile) {
   const fs::path nested = makePhantom(folder, "nested", {"--spacing", "3"});
   writeBytes(folder / "bad.lua", "print 'so far'\nsave('core', tissue 'nothing')\n");
   const ProgramResult result = runModule(
-      kRepair, {nested.string(), (folder / "bad.lua").string(), (folder / "out.seg.nrrd").string()});
+      kRepairModule, {nested.string(), (folder / "bad.lua").string(), (folder / "out.seg.nrrd").string()});
   EXPECT_EQ(result.exitCode, 1);
   EXPECT_TRUE(result.err.starts_with("SinewRepair: ")) << result.err;
   EXPECT_NE(result.err.find("bad.lua:2"), std::string::npos) << result.err;
@@ -322,7 +325,7 @@ TEST(SlicerMesher, C4_KilledAtAnyTimeItLeavesNothingUnderAFinalName) {
                                           "outer_shell.vtu", "scene.mrml"};
   const auto start = Clock::now();
   const TempFolder whole;
-  ASSERT_EQ(runModule(kMesher, call(whole)).exitCode, 0);
+  ASSERT_EQ(runModule(kMesherModule, call(whole)).exitCode, 0);
   const double seconds = secondsSince(start);
   ASSERT_EQ(namesIn(whole / "meshes"), complete);
 
@@ -331,7 +334,7 @@ TEST(SlicerMesher, C4_KilledAtAnyTimeItLeavesNothingUnderAFinalName) {
   std::mt19937 random(seed);
   for (int round = 0; round < 8; ++round) {
     const TempFolder folder;
-    Program program(kMesher, call(folder));
+    Program program(kMesherModule, call(folder));
     std::this_thread::sleep_for(
         std::chrono::duration<double>(std::uniform_real_distribution(0., seconds)(random)));
     program.signal(SIGKILL);
@@ -354,7 +357,7 @@ TEST(SlicerMesher, C5_ASegmentationUnderATemporaryNameGivesItsNames) {
   const TempFolder folder;
   const fs::path temporary = folder / "DBCD_vtkMRMLSegmentationNodeA.nrrd";
   fs::rename(makePhantom(folder, "nested", {"--spacing", "4"}), temporary);
-  ASSERT_EQ(runModule(kMesher, {temporary.string(), (folder / "mesh.vtu").string()}).exitCode, 0);
+  ASSERT_EQ(runModule(kMesherModule, {temporary.string(), (folder / "mesh.vtu").string()}).exitCode, 0);
   EXPECT_EQ(regionNames(folder / "mesh.vtu"),
             (std::set<std::string>{"core", "inner shell", "middle shell", "outer shell"}));
 }
@@ -364,7 +367,7 @@ TEST(SlicerMesher, C5_ALabelMapWithItsColourTableGivesTheNames) {
   const fs::path nested = makePhantom(folder, "nested", {"--spacing", "4"});
   const std::string map = (folder / "map.nrrd").string(), table = (folder / "colours.ctbl").string();
   ASSERT_EQ(run({"convert", nested.string(), map, "--table", table}).exitCode, 0);
-  ASSERT_EQ(runModule(kMesher, {"--lut", table, map, (folder / "mesh.vtu").string()}).exitCode, 0);
+  ASSERT_EQ(runModule(kMesherModule, {"--lut", table, map, (folder / "mesh.vtu").string()}).exitCode, 0);
   EXPECT_EQ(regionNames(folder / "mesh.vtu"),
             (std::set<std::string>{"core", "inner shell", "middle shell", "outer shell"}));
 }
