@@ -21,6 +21,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr int kMostFrames = 9998;
+constexpr int kMostWords = 9999;  // after the option of a trial: its amount, and meshes
 
 double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -70,7 +71,7 @@ void addTrialOptions(CLI::App& app, Choices& choices) {
              choices.meshes.insert(choices.meshes.end(), words.begin() + (hasAmount ? 1 : 0), words.end());
            },
            std::string(row.help) + "; default " + usualText(row.trial))
-        ->expected(0, -1)
+        ->expected(0, kMostWords)
         ->type_name(row.form);
   }
 }

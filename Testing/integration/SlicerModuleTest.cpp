@@ -82,11 +82,12 @@ std::vector<Parameter> parametersOf(const std::string& xml) {
 /// A value that a flag takes, as Slicer would give it.
 std::vector<std::string> exampleOf(const Parameter& parameter) {
   static const std::map<std::string, std::string> kExamples{
-      {"size", "a=2mm,b=3vox"}, {"smooth", "a=none"}, {"set", "x=1,y=2"}, {"tissue", "1,2"}};
+      {"method", "hybrid"},     {"physics", "push=2,drag=1"}, {"set", "x=1,y=2"},
+      {"size", "a=2mm,b=3vox"}, {"smooth", "a=none"},         {"tissue", "1,2"}};
   if (parameter.element == "boolean") return {};
-  if (!parameter.standard.empty()) return {parameter.standard};
-  const auto example = kExamples.find(parameter.name);
-  return {example != kExamples.end() ? example->second : "some.file"};
+  if (const auto example = kExamples.find(parameter.name); example != kExamples.end())
+    return {example->second};
+  return {parameter.standard.empty() ? "some.file" : parameter.standard};
 }
 
 class SlicerModule : public testing::TestWithParam<fs::path> {};
